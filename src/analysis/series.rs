@@ -1,0 +1,88 @@
+//! What a run leaves behind for the analysis: rows of probes, profiles along the crack plane, bond events.
+
+/// The time series of one case. All quantities in internal units (nm, ps, eV).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Series {
+    pub probes: Vec<Probe>,
+    /// Centres of the bins of every profile along the crack plane, x in nm from the left edge (reference configuration).
+    pub profile_x: Vec<f64>,
+    /// One profile a probe: `[sigma_xx, sigma_yy, sigma_xy]` in eV/nm^3 a bin; length `probes.len() * profile_x.len()`, probe-major.
+    pub profiles: Vec<[f64; 3]>,
+    /// Bonds that broke or healed since the probe before, in order of time.
+    pub bonds: Vec<BondEvent>,
+}
+
+/// One row of the time series.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Probe {
+    pub step: u64,
+    /// ps
+    pub time: f64,
+    /// Nominal strain.
+    pub strain: f64,
+    /// Average virial stress of everything between the grips, eV/nm^3.
+    pub sigma_xx: f64,
+    pub sigma_yy: f64,
+    pub sigma_xy: f64,
+    /// Force of the grips on the specimen over its cross-section, eV/nm^3.
+    pub grip_stress: f64,
+    /// eV; potential relative to the start of the run, kinetic in full.
+    pub kinetic: f64,
+    pub potential: f64,
+    /// Work of the grips since the start, eV.
+    pub work: f64,
+    /// Energy gained where pairs crossed the cutoff since the start, eV.
+    pub cutoff_release: f64,
+    /// Kinetic temperature of the atomic regions, K; NaN where there are none.
+    pub temperature: f64,
+}
+
+/// A nearest-neighbour bond of the reference lattice that broke (or closed again) between two probes.
+///
+/// The bond joins site (column, row) to its neighbour in `direction`: 0 is (1, 0), 1 is (0, 1), 2 is (-1, 1) in
+/// lattice coordinates, where site (i, j) stands at x = (i + j/2) r0, y = j sqrt(3)/2 r0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct BondEvent {
+    /// Index of the probe at which the change was seen.
+    pub probe: u32,
+    pub column: i32,
+    pub row: i32,
+    pub direction: u8,
+    /// `false`: the bond closed again.
+    pub broken: bool,
+}
+
+/// What the analysis must know of the specimen and the material besides the series. Internal units.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Lattice spacing r0, nm.
+    pub spacing: f64,
+    /// Specimen length (x), as built, nm. The left edge of the specimen is x = 0 = lattice x - `left_x`.
+    pub length: f64,
+    /// Lattice x of the specimen's left edge, nm.
+    pub left_x: f64,
+    /// Height between the inner edges of the grips, nm.
+    pub height: f64,
+    /// The crack is cut between lattice rows `crack_row - 1` and `crack_row`; `None`: no crack.
+    pub crack_row: Option<i32>,
+    /// Length of the cut from the left edge, nm.
+    pub crack_length: f64,
+    /// Strain rate, 1/ps.
+    pub strain_rate: f64,
+    /// 2D thickness, nm.
+    pub thickness: f64,
+    /// Longitudinal, transverse and Rayleigh wave speed of this lattice and cutoff, nm/ps.
+    pub longitudinal_speed: f64,
+    pub transverse_speed: f64,
+    pub rayleigh_speed: f64,
+    /// Young's modulus (2D, plane, force per length), eV/nm^2, and Poisson's ratio (2D).
+    pub young_modulus: f64,
+    pub poisson_ratio: f64,
+    /// Energy to make two new surfaces along a close-packed row, per length, eV/nm.
+    pub fracture_energy: f64,
+    /// Atoms an edge of the elements along the crack plane (1: atoms).
+    pub element_at_crack: u32,
+    pub nodes: u64,
+    pub elements: u64,
+    pub represented_atoms: u64,
+}

@@ -1,0 +1,1 @@
+//! Coarse-grained atomistic dynamics of fracture: declarative studies from a YAML file to a report.

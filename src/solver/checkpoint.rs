@@ -1,0 +1,36 @@
+//! Everything a run needs to go on, bit for bit, as if it had never stopped.
+
+/// State of a run between two steps. Internal units (nm, ps, eV).
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Checkpoint {
+    /// Steps taken.
+    pub step: u64,
+    /// Simulated time, ps.
+    pub time: f64,
+    /// Time step in force, ps.
+    pub time_step: f64,
+    /// Node positions, x then y, nm; each of length `nodes`.
+    pub position: [Vec<f64>; 2],
+    /// Node velocities at the same time, nm/ps.
+    pub velocity: [Vec<f64>; 2],
+    /// Interfaces that have left the intact path, ascending.
+    pub open_interfaces: Vec<u32>,
+    /// Work of the grips so far, eV.
+    pub work: f64,
+    /// Potential energy (eV) and number of pairs within the cutoff at the start.
+    pub initial_potential: f64,
+    pub initial_pairs: f64,
+    /// Kinetic energy at the start, eV.
+    pub initial_kinetic: f64,
+    /// Largest |work| and largest energy imbalance seen, eV.
+    pub peak_work: f64,
+    pub peak_imbalance: f64,
+    /// Bonds broken at the last probe, ascending (column, row, direction).
+    pub broken_bonds: Vec<[i32; 3]>,
+    /// Number of probes and snapshots written so far.
+    pub probes: u64,
+    pub snapshots: u64,
+    /// Time at which the crack last advanced, ps, and the farthest tip, nm; for the stop at arrest.
+    pub last_advance: f64,
+    pub farthest_tip: f64,
+}

@@ -1,0 +1,209 @@
+//! A resolved case: every choice explicit, every quantity in internal units (nm, ps, eV, u).
+//!
+//! `setup` reads nothing else. What a person may leave out of a study file is filled in
+//! by `study::defaults`, so that the numbers that were used can always be shown.
+
+use serde::Serialize;
+
+/// One computation, fully specified. Its identity is the hash of everything here but [`Execution`].
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Case {
+    pub material: Material,
+    pub specimen: Specimen,
+    pub resolution: Resolution,
+    pub crack: Option<Crack>,
+    pub loading: Loading,
+    pub run: Run,
+    pub probes: Probes,
+    pub snapshots: Snapshots,
+    #[serde(skip)]
+    pub execution: Execution,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Material {
+    pub potential: Potential,
+    /// Mass of one atom, u.
+    pub mass: f64,
+    /// What a 2D stress (force per length) is divided by to become a pressure, nm.
+    pub thickness: f64,
+}
+
+/// Pair potential together with what happens at its cutoff.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Potential {
+    pub shape: PotentialShape,
+    /// Distance beyond which a pair does not interact, nm.
+    pub cutoff: f64,
+    pub at_cutoff: AtCutoff,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum PotentialShape {
+    /// 4 epsilon ((sigma/r)^12 - (sigma/r)^6); eV, nm.
+    LennardJones { epsilon: f64, sigma: f64 },
+    /// depth ((1 - exp(-decay (r - distance)))^2 - 1); eV, 1/nm, nm.
+    Morse { depth: f64, decay: f64, distance: f64 },
+    /// stiffness/2 (r - distance)^2 - depth up to the cutoff, where the bond snaps; eV/nm^2, nm, eV.
+    HarmonicBond { stiffness: f64, distance: f64 },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum AtCutoff {
+    /// The potential is cut where it stands: energy and force jump.
+    Truncated,
+    /// The energy is shifted to zero at the cutoff; the force jumps.
+    Shifted,
+    /// Energy and force are taken to zero between `from` and the cutoff, nm.
+    Smooth { from: f64 },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Specimen {
+    pub lattice: Lattice,
+    /// Extent along the crack (x), nm.
+    pub length: f64,
+    /// Extent across the crack (y), nm.
+    pub width: f64,
+    /// Atoms an edge of the triangles that lay out the site set, whatever the resolution.
+    pub block: u32,
+    pub grips: Grips,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Lattice {
+    Triangular,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Grips {
+    /// u_x = 0 in the grips.
+    Clamped,
+    /// The grips leave u_x free.
+    Sliding,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Resolution {
+    /// Atoms an edge of an element; 1 is the single atom.
+    pub element: u32,
+    /// Where another, finer element is used. The finest region that holds a site decides.
+    pub regions: Vec<Region>,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Region {
+    pub element: u32,
+    pub shape: RegionShape,
+}
+
+/// x from the left edge of the specimen, y from the crack plane (mid-height), nm.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum RegionShape {
+    /// |y| <= half_width.
+    Band { half_width: f64 },
+    Box { from: [f64; 2], to: [f64; 2] },
+    Disc { center: [f64; 2], radius: f64 },
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Crack {
+    pub edge: Edge,
+    /// nm
+    pub length: f64,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Edge {
+    Left,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub enum Loading {
+    StrainRate {
+        mode: Mode,
+        /// Nominal strain rate, 1/ps.
+        rate: f64,
+        ramp: Ramp,
+    },
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Mode {
+    I,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Ramp {
+    /// The interior starts with the linear velocity profile of the loading, so that no shock enters.
+    InitialVelocity,
+    /// The interior starts at rest.
+    AtRest,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Run {
+    pub until: Until,
+    pub time_step: TimeStep,
+    pub summation: Summation,
+    pub mass: MassMatrix,
+}
+
+/// The run stops at whichever of these comes first; at least one of `strain` and `time` is given.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Until {
+    /// Nominal strain.
+    pub strain: Option<f64>,
+    /// ps
+    pub time: Option<f64>,
+    /// Distance of the foremost tip from the edge the crack starts at, nm.
+    pub crack_length: Option<f64>,
+    /// The crack has started and then stood still for this long, ps.
+    pub arrest: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum TimeStep {
+    /// This fraction of the stability limit.
+    Auto { fraction: f64 },
+    /// ps; refused above the stability limit.
+    Given(f64),
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum Summation {
+    Exact,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum MassMatrix {
+    Lumped,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Probes {
+    /// Simulated time between rows of the time series, ps.
+    pub every: f64,
+}
+
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Snapshots {
+    pub every: Option<SnapshotInterval>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub enum SnapshotInterval {
+    Strain(f64),
+    /// ps
+    Time(f64),
+}
+
+/// How a case is carried out. Never part of its identity: results do not depend on it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Execution {
+    pub ranks: u32,
+    /// Threads a rank; `None`: what the machine has, shared between the jobs.
+    pub threads: Option<u32>,
+    /// Wall time between checkpoints, s.
+    pub checkpoint_every: f64,
+}
