@@ -1,1 +1,10 @@
 //! Coarse-grained atomistic dynamics of fracture: declarative studies from a YAML file to a report.
+
+pub mod forces;
+pub mod integrator;
+pub mod lattice;
+pub mod loading;
+pub mod material;
+pub mod mesh;
+pub mod potential;
+pub mod state;

@@ -1,0 +1,6 @@
+//! All integration tests in one program, one module a part.
+
+#[path = "suite/forces.rs"]
+mod forces;
+#[path = "suite/specimens.rs"]
+mod specimens;
