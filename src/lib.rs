@@ -1,5 +1,6 @@
 //! Coarse-grained atomistic dynamics of fracture: declarative studies from a YAML file to a report.
 
+pub mod analysis;
 pub mod forces;
 pub mod integrator;
 pub mod lattice;
@@ -7,4 +8,5 @@ pub mod loading;
 pub mod material;
 pub mod mesh;
 pub mod potential;
+pub mod solver;
 pub mod state;
