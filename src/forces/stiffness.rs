@@ -1,6 +1,6 @@
 //! An upper bound of the highest frequency, for a time step that is stable for certain.
 
-use nalgebra::{Matrix6, SMatrix};
+use nalgebra::Matrix6;
 use rayon::prelude::*;
 
 use super::measure::{Bond, BondKind};
@@ -22,7 +22,8 @@ impl Forces {
             let elements = chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK);
             elements.fold(0.0, |largest: f64, element| {
                 let stiffness = self.element_stiffness(element, position);
-                largest.max(largest_eigenvalue(&stiffness, masses[self.mesh.first_node(element)], largest))
+                let nodes = self.mesh.elements[element].node_count();
+                largest.max(largest_eigenvalue(&stiffness, nodes, masses[self.mesh.first_node(element)], largest))
             })
         };
         Ok((0..chunks).into_par_iter().map(of_chunk).reduce(|| 0.0, f64::max))
@@ -34,16 +35,17 @@ impl Forces {
         let edge = f64::from((shape.size - 1).max(1));
         let mut stiffness = Matrix6::zeros();
         self.for_each_bond(element, position, |bond| {
-            let (weights, hessian) = match bond.kind {
+            let (weights, stiffnesses) = match bond.kind {
                 BondKind::Inside { local } => {
                     let [p, q] = local.map(|step| f64::from(step) / edge);
-                    ([-p - q, p, q], self.bond_stiffness(&bond, false, bond.count))
+                    ([-p - q, p, q], self.bond_stiffness(&bond, false))
                 }
                 BondKind::Across { local, severed } => {
-                    let shape_functions = shape.shape_functions(local);
-                    (shape_functions, positive_part(self.bond_stiffness(&bond, severed, 2.0)))
+                    let [along, across] = self.bond_stiffness(&bond, severed);
+                    (shape.shape_functions(local), [2.0 * along.max(0.0), 2.0 * across.max(0.0)])
                 }
             };
+            let hessian = hessian(bond.vector, stiffnesses);
             for a in 0..3 {
                 for b in 0..3 {
                     let weight = weights[a] * weights[b];
@@ -58,40 +60,31 @@ impl Forces {
         stiffness
     }
 
-    /// Second derivative of a bond's energy: phi'' along the bond and phi'/r across it.
-    fn bond_stiffness(&self, bond: &Bond, severed: bool, count: f64) -> [[f64; 2]; 2] {
+    /// Stiffness of a bond along its direction and across it: phi'' and phi'/r.
+    fn bond_stiffness(&self, bond: &Bond, severed: bool) -> [f64; 2] {
         let [x, y] = bond.vector;
         let squared = x * x + y * y;
-        let distance = squared.sqrt();
-        let across = count * self.contacts.value(&self.material, squared, severed).slope;
-        let along = count * self.contacts.curvature(&self.material, distance, severed);
-        let difference = (along - across) / squared;
-        let mixed = difference * x * y;
-        [[across + difference * x * x, mixed], [mixed, across + difference * y * y]]
+        let along = self.contacts.curvature(&self.material, squared.sqrt(), severed);
+        let across = self.contacts.value(&self.material, squared, severed).slope;
+        [bond.count * along, bond.count * across]
     }
 }
 
-/// The part of a symmetric matrix with eigenvalues of no less than zero.
-fn positive_part([[a, b], [_, c]]: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
-    let matrix = SMatrix::<f64, 2, 2>::new(a, b, b, c).symmetric_eigen();
-    let mut part = [[0.0; 2]; 2];
-    for k in 0..2 {
-        let value = matrix.eigenvalues[k].max(0.0);
-        let vector = matrix.eigenvectors.column(k);
-        for (i, row) in part.iter_mut().enumerate() {
-            for (j, entry) in row.iter_mut().enumerate() {
-                *entry += value * vector[i] * vector[j];
-            }
-        }
-    }
-    part
+/// Second derivative of a bond's energy with its vector.
+fn hessian([x, y]: [f64; 2], [along, across]: [f64; 2]) -> [[f64; 2]; 2] {
+    let difference = (along - across) / (x * x + y * y);
+    let mixed = difference * x * y;
+    [[across + difference * x * x, mixed], [mixed, across + difference * y * y]]
 }
 
 /// Largest eigenvalue over the mass; where the sum over a row shows that it is no larger than `known`, that instead.
-fn largest_eigenvalue(stiffness: &Matrix6<f64>, mass: f64, known: f64) -> f64 {
+fn largest_eigenvalue(stiffness: &Matrix6<f64>, nodes: usize, mass: f64, known: f64) -> f64 {
     let row_sum = stiffness.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>()).fold(0.0, f64::max);
     if row_sum <= known * mass {
         return known;
+    }
+    if nodes == 1 {
+        return stiffness.fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max() / mass;
     }
     stiffness.symmetric_eigenvalues().max() / mass
 }
