@@ -2,3 +2,4 @@
 
 pub mod plan;
 pub mod study;
+pub mod units;
