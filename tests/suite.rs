@@ -4,5 +4,9 @@
 mod analysis;
 #[path = "suite/forces.rs"]
 mod forces;
+#[path = "suite/solver.rs"]
+mod solver;
 #[path = "suite/specimens.rs"]
 mod specimens;
+#[path = "suite/synthetic.rs"]
+mod synthetic;

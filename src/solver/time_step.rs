@@ -13,10 +13,10 @@ pub enum TimeStep {
 }
 
 /// Steps between looks at the stability limit.
-pub const CHECK_EVERY: u64 = 500;
+pub const CHECK_EVERY: u64 = 100;
 
 /// How near to the limit an automatic time step may come before it is made shorter.
-const NEAREST: f64 = 0.95;
+const NEAREST: f64 = 0.75;
 
 /// Stability limit in the current state, ps.
 pub fn limit(forces: &mut Forces, state: &State) -> Result<f64, ForceError> {
@@ -51,10 +51,10 @@ mod tests {
     fn a_given_step_above_the_limit_is_refused_and_an_automatic_one_only_shrinks() {
         let refused = TimeStep::Given(0.2).choose(0.1);
         assert_eq!(refused, Err(SolverError::StepTooLong { given: 0.2, limit: 0.1 }));
-        let auto = TimeStep::Auto { fraction: 0.8 };
-        assert_eq!(auto.choose(0.1), Ok(0.08000000000000002));
-        assert_eq!(auto.adapt(0.08, 0.2), 0.08);
-        assert_eq!(auto.adapt(0.08, 0.09), 0.08);
-        assert_eq!(auto.adapt(0.08, 0.05), 0.04);
+        let auto = TimeStep::Auto { fraction: 0.75 };
+        assert_eq!(auto.choose(8.0), Ok(6.0));
+        assert_eq!(auto.adapt(6.0, 16.0), 6.0);
+        assert_eq!(auto.adapt(6.0, 8.0), 6.0);
+        assert_eq!(auto.adapt(6.0, 4.0), 3.0);
     }
 }
