@@ -1,1 +1,5 @@
 //! Coarse-grained atomistic dynamics of fracture: declarative studies from a YAML file to a report.
+
+pub mod analysis;
+pub mod record;
+pub mod solver;
