@@ -13,9 +13,11 @@ mod aside;
 pub mod checkpoint;
 mod cut_back;
 mod error;
+mod field;
 mod fields;
 mod file;
 pub mod frames;
+mod mesh;
 mod pieces;
 mod publish;
 mod read_fields;
@@ -23,13 +25,16 @@ mod sealed;
 mod segments;
 mod series;
 mod setting;
+mod snapshots;
+mod steps;
 
 pub use cut_back::cut_back;
 pub use error::RecordError;
 pub use publish::{publish_fields, publish_series};
 pub use read_fields::{FrameReader, read_fields};
-pub use segments::{read_segments, write_frame, write_segment};
+pub use segments::{read_segments, write_segment};
 pub use series::read_series;
+pub use snapshots::write_frame;
 
 /// Names of the files in a run's folder.
 pub const CHECKPOINT_FILE: &str = "checkpoint.h5";

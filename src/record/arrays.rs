@@ -8,7 +8,7 @@ use ndarray::{ArrayView, IxDyn};
 /// chunk always fits the 1 MB cache that HDF5 keeps a dataset.
 pub(super) const CHUNK_NUMBERS: usize = 16 * 1024;
 
-/// Deflate level: the first one compresses these noisy numbers within 2 % of the fourth, at twice its speed.
+/// Deflate level: the fourth makes noisy fields 3 % smaller than the first and takes 1.7 times as long.
 pub(super) const DEFLATE: u8 = 1;
 
 /// How the numbers lie in the file.
@@ -40,7 +40,9 @@ pub(super) fn put<T: H5Type>(
     if matches!(packing, Packing::Deflated) && !data.is_empty() {
         builder = builder.chunk(chunk(shape)).shuffle().deflate(DEFLATE);
     }
-    name_unit(&builder.with_data(view).create(name)?, unit)
+    let dataset = builder.with_data(view).create(name)?;
+    name_unit(&dataset, unit)?;
+    dataset.flush()
 }
 
 /// Writes one number.

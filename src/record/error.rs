@@ -16,7 +16,7 @@ pub enum RecordError {
     #[error("{path} does not exist; run the case to make it")]
     Absent { path: PathBuf },
 
-    #[error("{path} is damaged ({what}); delete it and run again: the case starts afresh")]
+    #[error("{path} is damaged ({what}); delete the folder it is in and run again: the case starts afresh")]
     Damaged { path: PathBuf, what: String },
 
     #[error("{path} is not a {expected} of cgaft; move it away and run again")]
@@ -24,7 +24,7 @@ pub enum RecordError {
 
     #[error(
         "{path} is a {kind} of format {found}, and this program reads format {readable}; read it with the version \
-         that wrote it, or delete it and run again: the case starts afresh"
+         that wrote it, or delete the folder it is in and run again: the case starts afresh"
     )]
     OtherFormat {
         path: PathBuf,
@@ -53,14 +53,14 @@ impl RecordError {
     pub(super) fn cannot_write(path: &Path, cause: impl std::fmt::Display) -> Self {
         RecordError::CannotWrite {
             path: path.to_owned(),
-            cause: cause.to_string(),
+            cause: brief(&cause.to_string()),
         }
     }
 
     pub(super) fn cannot_read(path: &Path, cause: impl std::fmt::Display) -> Self {
         RecordError::CannotRead {
             path: path.to_owned(),
-            cause: cause.to_string(),
+            cause: brief(&cause.to_string()),
         }
     }
 
@@ -84,5 +84,29 @@ impl RecordError {
             std::io::ErrorKind::NotFound => RecordError::Absent { path: path.to_owned() },
             _ => RecordError::cannot_read(path, cause),
         }
+    }
+}
+
+/// What the system said, out of the many lines that HDF5 makes of it; else everything.
+fn brief(cause: &str) -> String {
+    let said = cause
+        .split_once("error message = '")
+        .and_then(|(_, rest)| rest.split_once('\''));
+    said.map_or(cause, |(message, _)| message).to_owned()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_full_disk_is_told_in_the_words_of_the_system() {
+        let hdf5 = "H5Dwrite(): can't write data: file write failed: time = Sun Nov 22 07:40:48 2026\n, filename = \
+                    'f.h5.tmp', file descriptor = 3, errno = 28, error message = 'No space left on device', offset = 0";
+        let message = RecordError::cannot_write(Path::new("f.h5"), hdf5).to_string();
+        assert!(
+            message.starts_with("f.h5 could not be written: No space left on device; make room"),
+            "{message}"
+        );
     }
 }

@@ -21,6 +21,14 @@ pub(super) fn open(path: &Path) -> hdf5::Result<File> {
     unlocked().open(path)
 }
 
+/// Ends a file whose datasets were all flushed before they were dropped.
+///
+/// HDF5 keeps quiet about a write that fails while a dataset or a file is closed; a flush tells.
+pub(super) fn finish(file: File) -> hdf5::Result<()> {
+    file.flush()?;
+    file.close()
+}
+
 fn unlocked() -> FileBuilder {
     let mut options = File::with_options();
     options.with_fapl(|access| access.file_locking(false));

@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use hdf5::Group;
 use ndarray::s;
 
-use super::arrays::{get, get_column, get_rows};
-use super::fields::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
+use super::arrays::{get, get_column};
+use super::field::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
 use super::frames::{FieldMesh, Frame};
+use super::mesh::get_mesh;
 use super::{RecordError, file};
 
 /// Mesh and frames of a published file. The mesh is read to the bit, the frames to single precision.
@@ -106,14 +107,4 @@ impl FrameReader {
         let row = |row: ndarray::ArrayView1<f32>| std::array::from_fn(|component| f64::from(row[component]));
         Ok(numbers.rows().into_iter().map(row).collect())
     }
-}
-
-fn get_mesh(grid: &Group) -> hdf5::Result<FieldMesh> {
-    let points: Vec<[f64; 3]> = get_rows(grid, "Points")?;
-    Ok(FieldMesh {
-        points: points.iter().map(|[x, y, _]| [*x, *y]).collect(),
-        connectivity: get(grid, "Connectivity")?,
-        offsets: get(grid, "Offsets")?,
-        element_size: get(grid, "CellData/element_size")?,
-    })
 }

@@ -44,7 +44,7 @@ pub(super) fn open(path: &Path, seal: Seal) -> Result<hdf5::File, RecordError> {
 fn fill_hdf5(path: &Path, fill: impl FnOnce(&Group) -> hdf5::Result<()>) -> hdf5::Result<()> {
     let file = file::create(path, HEADER as u64)?;
     fill(&file)?;
-    file.close()
+    file::finish(file)
 }
 
 impl Seal<'_> {

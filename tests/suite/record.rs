@@ -1,6 +1,7 @@
 //! Files of a run: to the bit, whole or an error, and readable by others.
 
 mod checkpoint;
+mod interrupted;
 mod others;
 mod pieces;
 
@@ -57,7 +58,7 @@ fn series(probes: std::ops::Range<u64>, bins: u64) -> Series {
         column: -(index as i32),
         row: 7,
         direction: (index % 3) as u8,
-        broken: index % 2 == 0,
+        broken: index.is_multiple_of(2),
     };
     Series {
         probes: probes.clone().map(probe).collect(),
