@@ -9,6 +9,7 @@ pub mod material;
 pub mod mesh;
 pub mod plan;
 pub mod potential;
+pub mod record;
 pub mod solver;
 pub mod state;
 pub mod study;

@@ -1,12 +1,10 @@
-//! All integration tests in one program, one module a part.
+//! All integration tests in one program, one module a part, so that the heavy crates are linked once.
 
-#[path = "suite/analysis.rs"]
-mod analysis;
-#[path = "suite/forces.rs"]
-mod forces;
-#[path = "suite/solver.rs"]
-mod solver;
-#[path = "suite/specimens.rs"]
-mod specimens;
-#[path = "suite/synthetic.rs"]
-mod synthetic;
+mod suite {
+    mod analysis;
+    mod forces;
+    mod record;
+    mod solver;
+    mod specimens;
+    mod synthetic;
+}

@@ -8,7 +8,7 @@ use cgaft::analysis::series::{BondEvent, Probe, Series, Setting};
 use cgaft::analysis::stress_intensity::{griffith, near_tip};
 use cgaft::analysis::{Findings, analyse, comparison, history};
 
-use crate::synthetic::{SPACING, breaks, kinked, probes, series, setting, straight};
+use super::synthetic::{SPACING, breaks, kinked, probes, series, setting, straight};
 
 /// eV/nm^2.5 in MPa sqrt(m).
 const MEGAPASCAL_ROOT_METRE: f64 = 160.217_663_4 * 3.162_277_660_168_379e-5;

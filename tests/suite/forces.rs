@@ -4,7 +4,7 @@ use cgaft::forces::{Forces, Planes, referee};
 use cgaft::material::Material;
 use cgaft::mesh::Mesh;
 
-use crate::specimens::{all_materials, all_meshes, nearest_neighbours, states};
+use super::specimens::{all_materials, all_meshes, nearest_neighbours, states};
 
 /// Sums over the same pairs in another order differ by rounding only.
 const ROUNDING: f64 = 1e-12;
@@ -53,7 +53,7 @@ fn lists_made_earlier_leave_no_trace_in_the_forces() {
     let material = nearest_neighbours();
     for (mesh_name, mesh) in all_meshes(material.spacing) {
         let [early, late] = [0.02, 0.021].map(|strain| {
-            crate::specimens::displaced(&mesh, |[x, y]| [0.0, strain * y + if y > 26.0 && x < 25.0 { 0.3 } else { 0.0 }])
+            super::specimens::displaced(&mesh, |[x, y]| [0.0, strain * y + if y > 26.0 && x < 25.0 { 0.3 } else { 0.0 }])
         });
         let mut kept = Forces::new(mesh.clone(), material);
         let mut fresh = Forces::new(mesh.clone(), material);

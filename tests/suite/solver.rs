@@ -12,7 +12,7 @@ use cgaft::potential::AtCutoff;
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::{Ending, Moment, Observer, Progress, Settings, Solver, SolverError, TimeStep, Until};
 
-use crate::specimens::{all_meshes, lennard_jones, nearest_neighbours, slab};
+use super::specimens::{all_meshes, lennard_jones, nearest_neighbours, slab};
 
 /// Keeps everything a run gives.
 #[derive(Default)]
