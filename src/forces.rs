@@ -19,6 +19,8 @@ mod stiffness;
 pub use affine::{Affine, site_position};
 pub use measure::Measure;
 
+use std::time::{Duration, Instant};
+
 use rayon::prelude::*;
 
 use crate::lattice::triangular;
@@ -55,6 +57,8 @@ pub struct Forces {
     states: Vec<State>,
     contacts: Contacts,
     interface_forces: Vec<InterfaceForce>,
+    searches: u64,
+    search_time: Duration,
 }
 
 impl Forces {
@@ -70,7 +74,7 @@ impl Forces {
         let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
         let bulk = BulkBonds::new(&mesh, listed);
         let interface_forces = vec![InterfaceForce::default(); interfaces.pairs.len()];
-        Self { mesh, material, interfaces, bulk, states, contacts: Contacts::default(), interface_forces }
+        Self { mesh, material, interfaces, bulk, states, contacts: Contacts::default(), interface_forces, searches: 0, search_time: Duration::ZERO }
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -97,6 +101,11 @@ impl Forces {
         self.states.fill(State::Tight);
         open.iter().for_each(|&number| self.states[number as usize] = State::Open);
         self.contacts.forget();
+    }
+
+    /// How often neighbours were searched, and for how many seconds.
+    pub fn search_cost(&self) -> (u64, f64) {
+        (self.searches, self.search_time.as_secs_f64())
     }
 
     #[inline(always)]
@@ -168,7 +177,10 @@ impl Forces {
         }
         self.check_sound(position)?;
         let field = contact::Field { mesh: &self.mesh, interfaces: &self.interfaces, states: &self.states };
+        let start = Instant::now();
         self.contacts = Contacts::search(&field, &self.material, position);
+        self.searches += 1;
+        self.search_time += start.elapsed();
         Ok(())
     }
 

@@ -10,6 +10,7 @@ pub mod mesh;
 pub mod plan;
 pub mod potential;
 pub mod record;
+pub mod setup;
 pub mod solver;
 pub mod state;
 pub mod study;

@@ -1,6 +1,7 @@
 //! The run of one specimen in time: the loop, its observers, and when it stops.
 
 pub mod checkpoint;
+mod cost;
 mod ledger;
 mod probe;
 mod schedule;
@@ -8,7 +9,9 @@ mod stop;
 mod temperature;
 mod time_step;
 
+pub use cost::{Cost, Phase};
 pub use ledger::Ledger;
+pub use probe::site_volume;
 pub use stop::{Ending, Until};
 pub use time_step::TimeStep;
 
@@ -131,11 +134,13 @@ pub struct Solver {
     broken: Vec<[i32; 3]>,
     tracker: Option<Tracker>,
     stop: stop::Watch,
+    cost: Cost,
 }
 
 impl Solver {
     /// A specimen at the start of its loading.
     pub fn new(mesh: Mesh, material: Material, loading: Stretching, settings: Settings) -> Result<Self, SolverError> {
+        let mut clock = Instant::now();
         let masses = mesh.lumped_masses().into_iter().map(|mass| mass * material.site_mass).collect();
         let mut state = State::at_rest(mesh.node_positions(), masses);
         loading.start(&mesh, &mut state);
@@ -153,6 +158,8 @@ impl Solver {
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
         let stop = stop::Watch::new(&setting);
+        let mut cost = Cost::default();
+        cost.book(Phase::SetUp, &mut clock);
         Ok(Self {
             forces,
             state,
@@ -171,6 +178,7 @@ impl Solver {
             broken: Vec::new(),
             tracker,
             stop,
+            cost,
         })
     }
 
@@ -185,6 +193,11 @@ impl Solver {
 
     pub fn state(&self) -> &State {
         &self.state
+    }
+
+    /// Number of probes given so far.
+    pub fn probe_count(&self) -> u64 {
+        self.probes.taken()
     }
 
     pub fn ledger(&self) -> &Ledger {
@@ -214,15 +227,15 @@ impl Solver {
         loop {
             if let Some(ending) = self.stop.ending(&self.settings.until, self.time, self.strain(), self.time_step) {
                 self.observe(observer, true)?;
-                observer.checkpoint(&self.checkpoint()).map_err(RunError::Output)?;
+                self.save(observer)?;
                 return Ok(ending);
             }
             if stop.load(Ordering::Relaxed) {
-                observer.checkpoint(&self.checkpoint()).map_err(RunError::Output)?;
+                self.save(observer)?;
                 return Ok(Ending::Interrupted);
             }
             if last_checkpoint.elapsed() >= self.settings.checkpoint_every {
-                observer.checkpoint(&self.checkpoint()).map_err(RunError::Output)?;
+                self.save(observer)?;
                 last_checkpoint = Instant::now();
             }
             self.advance()?;
@@ -230,26 +243,47 @@ impl Solver {
         }
     }
 
+    fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
+        let mut clock = Instant::now();
+        observer.checkpoint(&self.checkpoint()).map_err(RunError::Output)?;
+        self.cost.book(Phase::Output, &mut clock);
+        Ok(())
+    }
+
     /// One step of central differences.
     pub fn advance(&mut self) -> Result<(), SolverError> {
+        let mut clock = Instant::now();
         let time_step = self.time_step;
         integrator::kick(&mut self.state, 0.5 * time_step);
         integrator::drift(&mut self.state, time_step);
         self.step += 1;
         self.time += time_step;
+        self.cost.book(Phase::Motion, &mut clock);
         self.forces
             .compute(&self.state.position, &mut self.state.force)
             .map_err(|source| self.blow_up(source))?;
+        self.cost.book(Phase::Forces, &mut clock);
         integrator::kick(&mut self.state, 0.5 * time_step);
         let power = self.loading.power(&self.state);
         self.ledger.add_work(0.5 * time_step * (self.power + power));
         self.power = power;
+        self.cost.book(Phase::Motion, &mut clock);
         if self.step.is_multiple_of(time_step::CHECK_EVERY) {
             self.stability_limit =
                 time_step::limit(&mut self.forces, &self.state).map_err(|source| self.blow_up(source))?;
             self.time_step = self.settings.time_step.adapt(self.time_step, self.stability_limit);
+            self.cost.book(Phase::Stability, &mut clock);
         }
         Ok(())
+    }
+
+    /// Where the time of this computation went: forces without the search for neighbours, which is a phase of its own.
+    pub fn cost(&self) -> Cost {
+        let (searches, seconds) = self.forces.search_cost();
+        let mut cost = self.cost.clone();
+        cost.add(Phase::Neighbours, searches, seconds);
+        cost.add(Phase::Forces, 0, -seconds);
+        cost
     }
 
     fn strain(&self) -> f64 {
@@ -267,6 +301,7 @@ impl Solver {
         if !probe && !snapshot {
             return Ok(());
         }
+        let mut clock = Instant::now();
         let measure = self.forces.measure(&self.state.position).map_err(|source| self.blow_up(source))?;
         if probe {
             self.probe(observer, &measure)?;
@@ -284,6 +319,7 @@ impl Solver {
             };
             observer.snapshot(&moment).map_err(RunError::Output)?;
         }
+        self.cost.book(Phase::Output, &mut clock);
         Ok(())
     }
 
