@@ -6,5 +6,6 @@ mod suite {
     mod record;
     mod solver;
     mod specimens;
+    mod study_files;
     mod synthetic;
 }
