@@ -2,5 +2,7 @@
 
 #[path = "suite/analysis.rs"]
 mod analysis;
+#[path = "suite/report.rs"]
+mod report;
 #[path = "suite/synthetic.rs"]
 mod synthetic;
