@@ -2,10 +2,16 @@
 
 mod suite {
     mod analysis;
+    mod cli;
+    mod dump;
+    mod executor;
     mod forces;
     mod record;
+    mod report;
     mod solver;
     mod specimens;
+    mod store;
     mod study_files;
     mod synthetic;
+    mod tidy;
 }
