@@ -101,9 +101,17 @@ pub struct Region {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub enum RegionShape {
     /// |y| <= half_width.
-    Band { half_width: f64 },
-    Box { from: [f64; 2], to: [f64; 2] },
-    Disc { center: [f64; 2], radius: f64 },
+    Band {
+        half_width: f64,
+    },
+    Box {
+        from: [f64; 2],
+        to: [f64; 2],
+    },
+    Disc {
+        center: [f64; 2],
+        radius: f64,
+    },
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
