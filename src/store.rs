@@ -46,7 +46,9 @@ struct Format {
 impl Store {
     /// The store of `study` below `results`. Reads the format mark, if there is one, and writes nothing.
     pub fn open(results: &Path, study: &str) -> Result<Store, StoreError> {
-        let store = Store { root: results.join(study) };
+        let store = Store {
+            root: results.join(study),
+        };
         let mark = store.mark();
         let text = match fs::read_to_string(&mark) {
             Ok(text) => text,
@@ -55,16 +57,27 @@ impl Store {
         };
         match serde_json::from_str::<Format>(&text) {
             Ok(Format { format: FORMAT }) => Ok(store),
-            Ok(Format { format }) => {
-                Err(StoreError::Format { path: mark, found: format.to_string(), known: FORMAT })
-            }
-            Err(_) => Err(StoreError::Format { path: mark, found: "unknown".to_owned(), known: FORMAT }),
+            Ok(Format { format }) => Err(StoreError::Format {
+                path: mark,
+                found: format.to_string(),
+                known: FORMAT,
+            }),
+            Err(_) => Err(StoreError::Format {
+                path: mark,
+                found: "unknown".to_owned(),
+                known: FORMAT,
+            }),
         }
     }
 
     /// Makes the folders, so that an unwritable place is found before anything is computed.
     pub fn prepare(&self) -> Result<(), StoreError> {
-        for folder in [self.root.clone(), self.root.join("runs"), self.root.join("cases"), self.root.join(".locks")] {
+        for folder in [
+            self.root.clone(),
+            self.root.join("runs"),
+            self.root.join("cases"),
+            self.root.join(".locks"),
+        ] {
             fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
         }
         files::write_json(&self.mark(), &Format { format: FORMAT })

@@ -18,8 +18,14 @@ const SIGNAL_KILL: i32 = 9;
 pub fn meaning(status: ExitStatus) -> String {
     const CODES: [(u8, &str); 5] = [
         (BAD_INPUT, "the case was refused"),
-        (MISSING_ENVIRONMENT, "something is missing on this machine; `cgaft doctor` tells what"),
-        (PHYSICS_FAILED, "the physics failed; the log tells the step, the place and what to try"),
+        (
+            MISSING_ENVIRONMENT,
+            "something is missing on this machine; `cgaft doctor` tells what",
+        ),
+        (
+            PHYSICS_FAILED,
+            "the physics failed; the log tells the step, the place and what to try",
+        ),
         (OUTPUT_FAILED, "the output could not be written"),
         (INTERRUPTED, "interrupted"),
     ];
@@ -41,8 +47,14 @@ mod tests {
 
     #[test]
     fn every_ending_has_words() {
-        assert_eq!(meaning(ExitStatus::from_raw(4 << 8)).split(';').next(), Some("the physics failed"));
-        assert_eq!(meaning(ExitStatus::from_raw(77 << 8)), "the solver ended with exit code 77");
+        assert_eq!(
+            meaning(ExitStatus::from_raw(4 << 8)).split(';').next(),
+            Some("the physics failed")
+        );
+        assert_eq!(
+            meaning(ExitStatus::from_raw(77 << 8)),
+            "the solver ended with exit code 77"
+        );
         assert!(meaning(ExitStatus::from_raw(9)).contains("memory"));
         assert!(meaning(ExitStatus::from_raw(11)).contains("signal 11"));
     }

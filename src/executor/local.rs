@@ -21,7 +21,6 @@ pub enum Event {
 /// A solver at work. It is asked to stop when dropped, and waited for.
 #[derive(Debug)]
 pub struct Running {
-    pub job: usize,
     child: Child,
     /// Open as long as the child shall go on. It closes by itself if this process dies, so that no orphan computes on.
     leash: Option<ChildStdin>,
@@ -29,7 +28,10 @@ pub struct Running {
 
 /// Starts a solver, away from the terminal's Ctrl-C; its standard error goes to the log.
 pub fn start(job: usize, launch: &Launch, log: File, events: Sender<Event>) -> Result<Running, ExecutorError> {
-    let failed = |source| ExecutorError::Start { program: launch.program.clone(), source };
+    let failed = |source| ExecutorError::Start {
+        program: launch.program.clone(),
+        source,
+    };
     let errors = log.try_clone().map_err(failed)?;
     let mut child = Command::new(&launch.program)
         .args(&launch.arguments)
@@ -42,7 +44,7 @@ pub fn start(job: usize, launch: &Launch, log: File, events: Sender<Event>) -> R
     let leash = child.stdin.take();
     let output = child.stdout.take().expect("its output was asked for above");
     thread::spawn(move || listen(job, BufReader::new(output), log, &events));
-    Ok(Running { job, child, leash })
+    Ok(Running { child, leash })
 }
 
 /// Progress becomes events; everything else that a child says belongs in its log.

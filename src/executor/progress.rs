@@ -27,8 +27,18 @@ mod tests {
 
     #[test]
     fn a_progress_line_reads_back_as_it_was_written() {
-        let progress = Progress { step: 7, of: 10, time_ps: 0.1, strain: 0.01, tip_nm: None, percent: 70.0 };
-        assert_eq!(Progress::parse(&serde_json::to_string(&progress).unwrap()), Some(progress));
+        let progress = Progress {
+            step: 7,
+            of: 10,
+            time_ps: 0.1,
+            strain: 0.01,
+            tip_nm: None,
+            percent: 70.0,
+        };
+        assert_eq!(
+            Progress::parse(&serde_json::to_string(&progress).unwrap()),
+            Some(progress)
+        );
     }
 
     #[test]

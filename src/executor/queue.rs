@@ -174,15 +174,27 @@ impl<'a> Queue<'a> {
         let log = open_log(&folder, &command)?;
         let process = local::start(number, &command, log, self.speak.clone())?;
         self.watcher.started(job);
-        self.running.push(Work { job: number, process, claim, threads, noted: Instant::now() - NOTE_EVERY });
+        self.running.push(Work {
+            job: number,
+            process,
+            claim,
+            threads,
+            noted: Instant::now() - NOTE_EVERY,
+        });
         Ok(())
     }
 
     fn progress(&mut self, job: usize, progress: &Progress) -> Result<(), ExecutorError> {
-        let Some(work) = self.running.iter_mut().find(|work| work.job == job) else { return Ok(()) };
+        let Some(work) = self.running.iter_mut().find(|work| work.job == job) else {
+            return Ok(());
+        };
         if work.noted.elapsed() >= NOTE_EVERY {
             work.noted = Instant::now();
-            work.claim.note(Some(Reached { step: progress.step, of: progress.of, percent: progress.percent }))?;
+            work.claim.note(Some(Reached {
+                step: progress.step,
+                of: progress.of,
+                percent: progress.percent,
+            }))?;
         }
         self.watcher.progress(&self.jobs[job], progress);
         Ok(())
@@ -225,7 +237,11 @@ impl<'a> Queue<'a> {
             exit::meaning(status)
         };
         let tail = log_tail(&work.claim.folder());
-        Ok(Ending::Failed(Box::new(work.claim.fail(status.code(), meaning, tail)?)))
+        Ok(Ending::Failed(Box::new(work.claim.fail(
+            status.code(),
+            meaning,
+            tail,
+        )?)))
     }
 
     fn end(&mut self, job: usize, ending: Ending) {
@@ -243,7 +259,9 @@ impl<'a> Queue<'a> {
 pub fn starts_over(state: &State) -> bool {
     let version = |program: &Program| program.version != Program::current().version;
     match state {
-        State::Failed(failure) => failure.exit_code == Some(i32::from(exit::PHYSICS_FAILED)) || version(&failure.program),
+        State::Failed(failure) => {
+            failure.exit_code == Some(i32::from(exit::PHYSICS_FAILED)) || version(&failure.program)
+        }
         State::Partial(Some(attempt)) => version(&attempt.program),
         State::Missing | State::Partial(None) | State::Running(_) => false,
         State::Done(_) | State::Corrupt { .. } => true,
@@ -258,7 +276,10 @@ fn open_log(folder: &Path, command: &launch::Launch) -> Result<File, ExecutorErr
         writeln!(log, "{} {command}", Timestamp::now().strftime("%F %T UTC"))?;
         Ok(log)
     };
-    open().map_err(|source| ExecutorError::Log { path: path.clone(), source })
+    open().map_err(|source| ExecutorError::Log {
+        path: path.clone(),
+        source,
+    })
 }
 
 /// The last lines of a log, of which only the end is read.
@@ -267,5 +288,8 @@ fn log_tail(folder: &Path) -> Vec<String> {
     let end = &bytes[bytes.len().saturating_sub(1 << 16)..];
     let text = String::from_utf8_lossy(end);
     let lines: Vec<&str> = text.lines().collect();
-    lines[lines.len().saturating_sub(LOG_TAIL)..].iter().map(|line| (*line).to_owned()).collect()
+    lines[lines.len().saturating_sub(LOG_TAIL)..]
+        .iter()
+        .map(|line| (*line).to_owned())
+        .collect()
 }

@@ -17,12 +17,23 @@ pub fn share(seconds: &[f64], cores: usize, jobs: Option<usize>, threads: Option
     let cores = cores.max(1);
     let threads_of = |jobs: usize| threads.unwrap_or((cores / jobs).max(1) as u32);
     if let Some(jobs) = jobs {
-        return Share { jobs, threads: threads_of(jobs) };
+        return Share {
+            jobs,
+            threads: threads_of(jobs),
+        };
     }
-    let most = threads.map_or(cores, |threads| (cores / threads.max(1) as usize).max(1)).min(seconds.len().max(1));
-    let candidates = (1..=most).map(|jobs| Share { jobs, threads: threads_of(jobs) });
+    let most = threads
+        .map_or(cores, |threads| (cores / threads.max(1) as usize).max(1))
+        .min(seconds.len().max(1));
+    let candidates = (1..=most).map(|jobs| Share {
+        jobs,
+        threads: threads_of(jobs),
+    });
     let end = |share: &Share| makespan(seconds, share.jobs) / f64::from(share.threads).powf(THREAD_EFFICIENCY);
-    candidates.min_by(|a, b| end(a).total_cmp(&end(b))).unwrap_or(Share { jobs: 1, threads: threads_of(1) })
+    candidates.min_by(|a, b| end(a).total_cmp(&end(b))).unwrap_or(Share {
+        jobs: 1,
+        threads: threads_of(1),
+    })
 }
 
 /// When the last case ends if the longest is always started first on the job that is free first.
@@ -56,7 +67,10 @@ mod tests {
                 let seconds: Vec<f64> = (0..cases).map(|case| 1.0 + f64::from(case * case)).collect();
                 let chosen = share(&seconds, cores, None, None);
                 assert!(chosen.jobs >= 1 && chosen.threads >= 1);
-                assert!(chosen.jobs * chosen.threads as usize <= cores, "{chosen:?} on {cores} cores");
+                assert!(
+                    chosen.jobs * chosen.threads as usize <= cores,
+                    "{chosen:?} on {cores} cores"
+                );
             }
         }
     }

@@ -31,7 +31,9 @@ pub struct Claim {
 impl Store {
     /// Takes a run for this process; `None` while another one has it.
     pub fn claim(&self, id: &str) -> Result<Option<Claim>, StoreError> {
-        let Some(lock) = files::try_lock(&self.lock_path(id))? else { return Ok(None) };
+        let Some(lock) = files::try_lock(&self.lock_path(id))? else {
+            return Ok(None);
+        };
         if files::is_locked(&self.partial_folder(id).join(SOLVER_LOCK)) {
             return Ok(None);
         }
@@ -135,7 +137,12 @@ impl Claim {
     }
 
     /// Keeps everything the failed run has written, with the reason beside it.
-    pub fn fail(mut self, exit_code: Option<i32>, meaning: String, log_tail: Vec<String>) -> Result<Failure, StoreError> {
+    pub fn fail(
+        mut self,
+        exit_code: Option<i32>,
+        meaning: String,
+        log_tail: Vec<String>,
+    ) -> Result<Failure, StoreError> {
         self.note(None)?;
         let failure = Failure {
             exit_code,
@@ -175,7 +182,10 @@ fn sync_files(folder: &Path) -> Result<BTreeMap<String, u64>, StoreError> {
         let metadata = fs::metadata(&path).map_err(StoreError::read(&path))?;
         if metadata.is_file() {
             files::sync(&path)?;
-            sizes.insert(path.file_name().unwrap_or_default().to_string_lossy().into_owned(), metadata.len());
+            sizes.insert(
+                path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
+                metadata.len(),
+            );
         }
     }
     Ok(sizes)

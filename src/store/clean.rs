@@ -47,7 +47,12 @@ impl Store {
         if free {
             files::remove(&path)?;
         }
-        Ok(Removed { path, what, bytes, removed: free })
+        Ok(Removed {
+            path,
+            what,
+            bytes,
+            removed: free,
+        })
     }
 }
 
@@ -69,5 +74,8 @@ fn entries(folder: &Path) -> Result<Vec<String>, StoreError> {
 
 fn size(folder: &Path) -> u64 {
     let files = fs::read_dir(folder).into_iter().flatten().flatten();
-    files.filter_map(|entry| entry.metadata().ok()).map(|metadata| metadata.len()).sum()
+    files
+        .filter_map(|entry| entry.metadata().ok())
+        .map(|metadata| metadata.len())
+        .sum()
 }

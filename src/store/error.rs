@@ -18,11 +18,17 @@ pub enum StoreError {
 
 impl StoreError {
     pub(super) fn write(path: &Path) -> impl FnOnce(io::Error) -> StoreError + '_ {
-        move |source| StoreError::Write { path: path.to_owned(), source }
+        move |source| StoreError::Write {
+            path: path.to_owned(),
+            source,
+        }
     }
 
     pub(super) fn read(path: &Path) -> impl FnOnce(io::Error) -> StoreError + '_ {
-        move |source| StoreError::Read { path: path.to_owned(), source }
+        move |source| StoreError::Read {
+            path: path.to_owned(),
+            source,
+        }
     }
 }
 

@@ -31,7 +31,11 @@ pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
 }
 
 pub fn open_lock(path: &Path) -> Result<File, StoreError> {
-    File::options().create(true).append(true).open(path).map_err(StoreError::write(path))
+    File::options()
+        .create(true)
+        .append(true)
+        .open(path)
+        .map_err(StoreError::write(path))
 }
 
 /// The locked file, or `None` while another process holds it.
@@ -52,7 +56,9 @@ pub fn is_locked(path: &Path) -> bool {
 
 /// Flushes a file or the entries of a folder to the disk.
 pub fn sync(path: &Path) -> Result<(), StoreError> {
-    File::open(path).and_then(|file| file.sync_all()).map_err(StoreError::write(path))
+    File::open(path)
+        .and_then(|file| file.sync_all())
+        .map_err(StoreError::write(path))
 }
 
 /// Removes a file or a folder with all that is in it; that it is not there is no error.

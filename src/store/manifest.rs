@@ -63,7 +63,9 @@ impl Program {
     pub fn current() -> Program {
         Program {
             version: env!("CARGO_PKG_VERSION").to_owned(),
-            commit: option_env!("CGAFT_COMMIT").filter(|text| !text.is_empty()).map(str::to_owned),
+            commit: option_env!("CGAFT_COMMIT")
+                .filter(|text| !text.is_empty())
+                .map(str::to_owned),
             features: env!("CGAFT_FEATURES").split_whitespace().map(str::to_owned).collect(),
         }
     }
@@ -105,6 +107,8 @@ pub struct Failure {
 
 /// Name of this machine.
 pub fn host() -> Option<String> {
-    let name = std::fs::read_to_string("/proc/sys/kernel/hostname").ok().or_else(|| std::env::var("HOSTNAME").ok())?;
+    let name = std::fs::read_to_string("/proc/sys/kernel/hostname")
+        .ok()
+        .or_else(|| std::env::var("HOSTNAME").ok())?;
     Some(name.trim().to_owned()).filter(|name| !name.is_empty())
 }

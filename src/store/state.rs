@@ -38,7 +38,11 @@ impl Store {
     pub fn state(&self, id: &str) -> State {
         let on_disk = self.state_on_disk(id);
         let unpublished = !matches!(on_disk, State::Done(_));
-        if unpublished && files::is_locked(&self.lock_path(id)) { State::Running(self.attempt(id)) } else { on_disk }
+        if unpublished && files::is_locked(&self.lock_path(id)) {
+            State::Running(self.attempt(id))
+        } else {
+            on_disk
+        }
     }
 
     /// State of a run for the one who holds its lock.
