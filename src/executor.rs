@@ -6,6 +6,7 @@
 pub mod exit;
 pub mod launch;
 mod local;
+pub mod probe;
 pub mod progress;
 pub mod queue;
 pub mod share;

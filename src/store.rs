@@ -21,7 +21,7 @@ mod state;
 pub use claim::{Claim, FolderLock};
 pub use clean::Removed;
 pub use error::StoreError;
-pub use manifest::{Attempt, ExitState, Failure, Manifest, Outcome, Program, Reached, host};
+pub use manifest::{Attempt, ExitState, Failure, Manifest, Outcome, Phase, Program, Reached, host};
 pub use state::State;
 
 use std::fs::{self, File};

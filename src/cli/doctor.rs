@@ -1,10 +1,10 @@
 use std::fs;
 use std::path::Path;
-use std::process::Command;
 use std::thread;
 
 use super::{CliError, format, terminal};
 use crate::executor::launch;
+use crate::executor::probe::output_of;
 
 /// `cgaft doctor`: a line each, with what to do where something is missing.
 pub fn doctor() -> Result<u8, CliError> {
@@ -122,28 +122,9 @@ fn python() -> Finding {
     };
     let script = "import h5py, vtk; print('h5py', h5py.__version__ + ', vtk', vtk.VTK_VERSION)";
     let advice = "without h5py and vtk, which only the tests of this project need: `make test` installs them there";
-    let output = Command::new(python)
-        .args(["-c", script])
-        .output()
-        .ok()
-        .filter(|output| output.status.success());
-    match output {
-        Some(output) => found("python", String::from_utf8_lossy(&output.stdout).trim().to_owned()),
-        None => optional("python", advice),
-    }
+    output_of(python, &["-c", script]).map_or_else(|| optional("python", advice), |versions| found("python", versions))
 }
 
 fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
-    let output = Command::new(program)
-        .args(arguments)
-        .output()
-        .ok()
-        .filter(|output| output.status.success())?;
-    Some(
-        String::from_utf8_lossy(&output.stdout)
-            .lines()
-            .next()?
-            .trim()
-            .to_owned(),
-    )
+    output_of(program, arguments)?.lines().next().map(str::to_owned)
 }

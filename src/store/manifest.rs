@@ -45,8 +45,21 @@ pub struct Outcome {
     /// Why the run stopped, such as `strain 0.035 reached`.
     pub end_reason: String,
     pub steps: u64,
-    /// Time step used, ps.
+    /// Time step used, and the largest stable one, ps.
     pub time_step_ps: f64,
+    pub stability_limit_ps: f64,
+    /// Largest energy imbalance over the largest work; `None` where nothing has done work.
+    pub energy_error_relative: Option<f64>,
+    /// Where the time went.
+    pub cost: Vec<Phase>,
+}
+
+/// Time spent in one part of the computation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Phase {
+    pub name: String,
+    pub calls: u64,
+    pub seconds: f64,
 }
 
 /// The program that computed a run.
