@@ -5,3 +5,4 @@ pub mod executor;
 pub mod plan;
 pub mod store;
 pub mod study;
+pub mod units;

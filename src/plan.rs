@@ -1,6 +1,23 @@
-//! A study becomes a list of cases, each with a name and an identity.
+//! A study becomes a list of cases, each with a name, every choice made, and an identity.
 
-use crate::study::{Study, StudyError, case::Case};
+mod difference;
+mod expansion;
+mod identity;
+mod name;
+mod range;
+mod spelling;
+mod starter;
+mod sweep;
+mod write;
+
+pub use difference::explain_difference;
+pub use identity::CaseId;
+pub use spelling::spelled;
+pub use starter::starter;
+pub use write::write_case;
+
+use crate::study::{Finding, Given, Place, Study, StudyError, Table, case::Case, resolve};
+use std::collections::HashMap;
 
 /// What is to be computed, in the order of the study file.
 #[derive(Clone, Debug)]
@@ -8,10 +25,11 @@ pub struct Plan {
     /// Name of the study: one folder of results.
     pub study: String,
     pub question: Option<String>,
+    /// Headline of the report.
     pub title: Option<String>,
     /// What to compare with: quantity and file, as written in the study.
     pub compare: Vec<(String, String)>,
-    /// File name and text of the study, for the report.
+    /// The study file as it was named, and its text.
     pub file: String,
     pub source: String,
     pub cases: Vec<PlannedCase>,
@@ -23,48 +41,72 @@ pub struct PlannedCase {
     /// Unique in its study and fit to be a file name: `B`, `B-element-10`.
     pub name: String,
     pub case: Case,
+    /// What the report is to show of it; no part of its identity.
+    pub tables: Vec<Table>,
     pub id: CaseId,
 }
 
-/// Identity of a case: a hash of all that its result depends on, shown as 16 hexadecimal digits.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub struct CaseId(pub u64);
-
-impl std::fmt::Display for CaseId {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:016x}", self.0)
-    }
-}
-
-/// Expand a study into its cases; all mistakes of the file come back at once.
+/// Expand a study into its cases. All mistakes of the file, those of reading it too, come back at once.
 pub fn plan(study: &Study) -> Result<Plan, StudyError> {
+    let content = &study.content;
+    let findings = &study.findings.clone();
+    let name = study_name(&content.study, findings);
+    let mut cases = Vec::new();
+    // Names end up as folders, and not every file system tells B from b.
+    let mut places: HashMap<String, Place> = HashMap::new();
+    for draft in expansion::expand(content, findings) {
+        if let Some(first) = places.insert(draft.name.to_lowercase(), draft.place) {
+            let message = format!("two cases would be called `{}`", draft.name);
+            findings.add(
+                Finding::at(draft.place, message)
+                    .with(first, "the other one")
+                    .help("rename or remove one of them"),
+            );
+        }
+        if let Some(resolved) = resolve(&draft.values, &draft.name, findings) {
+            let id = CaseId::of(&resolved.case);
+            cases.push(PlannedCase {
+                name: draft.name,
+                case: resolved.case,
+                tables: resolved.tables,
+                id,
+            });
+        }
+    }
+    if !findings.is_empty() {
+        return Err(Study {
+            findings: findings.clone(),
+            ..study.clone()
+        }
+        .error());
+    }
+    let text = |given: &Given<String>| given.right().map(|text| text.trim().to_owned());
+    let compare = content.compare.right().map_or([].as_slice(), |compare| &compare.0);
     Ok(Plan {
-        study: study.name.clone(),
-        question: None,
-        title: None,
-        compare: vec![],
-        file: String::new(),
-        source: String::new(),
-        cases: vec![],
+        study: name,
+        question: text(&content.question),
+        title: content.report.right().and_then(|report| text(&report.title)),
+        compare: compare
+            .iter()
+            .filter_map(|(name, file)| Some((name.text.clone(), file.right()?.clone())))
+            .collect(),
+        file: study.file.clone(),
+        source: study.text.to_string(),
+        cases,
     })
 }
 
-/// The case as YAML a person can read, every default explicit; `study::read_case` reads it back to the bit.
-pub fn write_case(case: &PlannedCase) -> String {
-    case.name.clone()
-}
-
-/// The case with the keys and units of a study file: what `explain_difference` compares.
-pub fn spelled(case: &Case) -> serde_json::Value {
-    serde_json::to_value(case).unwrap_or_default()
-}
-
-/// What changed between two spelled cases, a line each: `loading.strain-rate.rate: 4.6e6 /s -> 9.2e6 /s`.
-pub fn explain_difference(_old: &serde_json::Value, _new: &serde_json::Value) -> Vec<String> {
-    Vec::new()
-}
-
-/// The commented study that `cgaft new NAME` writes.
-pub fn starter(name: &str) -> String {
-    format!("study: {name}\n")
+fn study_name(given: &Given<String>, findings: &crate::study::Findings) -> String {
+    match given {
+        Given::Right(text, place) => {
+            name::check(text, *place, "study", findings);
+            text.clone()
+        }
+        Given::Wrong(_) => String::new(),
+        Given::Absent => {
+            let missing = Finding::at(Place::default(), "the study has no name").help("write `study: my-study`");
+            findings.add(missing);
+            String::new()
+        }
+    }
 }

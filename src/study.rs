@@ -1,68 +1,114 @@
 //! The study file: what a person types, checked with line and column.
+//!
+//! A text becomes a tree in which everything knows its place (`tree`), the tree becomes typed values that keep their
+//! places (`reader`, `file`), and a case with all its changes laid over the base (`overlay`) becomes a
+//! [`case::Case`] once it makes sense (`resolve`). Mistakes are collected on the way and told all at once.
 
 pub mod case;
+mod defaults;
+mod error;
+mod file;
+mod finding;
+mod named;
+mod overlay;
+mod quantity;
+mod reader;
+mod resolve;
+mod schema;
+mod source;
+mod tree;
+
+pub use error::{Mistake, StudyError};
+pub(crate) use file::{CaseFile, StudyFile};
+pub(crate) use finding::{Finding, Findings, Place};
+pub(crate) use named::{Name, Sweep};
+pub(crate) use overlay::Overlay;
+pub(crate) use reader::{Given, read as read_tree};
+pub use resolve::Table;
+pub(crate) use resolve::{Resolved, resolve};
+pub use schema::schema;
+pub use source::SHIPPED;
+pub(crate) use tree::{Node, Value};
 
 use case::Case;
+use std::sync::Arc;
 
-/// A study file that could be read; `plan::plan` makes cases of it.
+/// Version of the study file that this program reads.
+const FORMAT: u32 = 1;
+
+/// A study file as read. Mistakes in it do not stop the reading: `plan::plan` tells them together with its own.
 #[derive(Clone, Debug)]
 pub struct Study {
-    pub name: String,
-}
-
-/// What is wrong with a study file, all of it.
-#[derive(Debug, thiserror::Error)]
-#[error("{}", self.render(false))]
-pub struct StudyError {
-    mistakes: Vec<Mistake>,
-}
-
-/// One mistake, for programs.
-#[derive(Clone, Debug, PartialEq, serde::Serialize)]
-pub struct Mistake {
-    pub file: String,
-    /// From 1; `None` where the file as a whole is wrong.
-    pub line: Option<usize>,
-    pub column: Option<usize>,
-    pub message: String,
-    pub help: Option<String>,
-}
-
-impl StudyError {
-    /// The report a person reads, with excerpts and carets.
-    pub fn render(&self, _color: bool) -> String {
-        self.mistakes
-            .iter()
-            .map(|m| m.message.as_str())
-            .collect::<Vec<_>>()
-            .join("\n")
-    }
-
-    pub fn mistakes(&self) -> &[Mistake] {
-        &self.mistakes
-    }
+    pub(crate) file: String,
+    pub(crate) text: Arc<str>,
+    pub(crate) content: StudyFile,
+    pub(crate) findings: Findings,
 }
 
 /// Read a study file, or the shipped study of that name where there is no such file.
 pub fn read(path: &str) -> Result<Study, StudyError> {
-    Ok(Study { name: path.into() })
+    let text = source::text(path).map_err(|finding| StudyError::new(path, "".into(), vec![finding]))?;
+    read_text(path, &text)
 }
 
-/// Read a case as `plan::write_case` writes it: its name and the case.
-pub fn read_case(path: &str) -> Result<(String, Case), StudyError> {
-    let message = format!("{path} cannot be read");
-    Err(StudyError {
-        mistakes: vec![Mistake {
-            file: path.into(),
-            line: None,
-            column: None,
-            message,
-            help: None,
-        }],
+/// Read the text of a study; `file` is what messages call it.
+pub fn read_text(file: &str, text: &str) -> Result<Study, StudyError> {
+    let findings = Findings::default();
+    let text: Arc<str> = text.into();
+    let fail = |finding: Finding| StudyError::new(file, Arc::clone(&text), vec![finding]);
+    let root = tree::parse(&text, &findings).map_err(fail)?;
+    check_format(&root).map_err(fail)?;
+    let content = match read_tree(&root, &findings) {
+        Given::Right(content, _) => content,
+        _ => StudyFile::default(),
+    };
+    Ok(Study {
+        file: file.into(),
+        text,
+        content,
+        findings,
     })
 }
 
-/// JSON Schema (draft 07) of a study file.
-pub fn schema() -> serde_json::Value {
-    serde_json::json!({})
+/// Read a case as `plan::write_case` writes it, which is a study of one case: its name and the case.
+pub fn read_case(path: &str) -> Result<(String, Case), StudyError> {
+    let study = read(path)?;
+    let cases = study.content.cases.right().map_or([].as_slice(), |cases| &cases.0);
+    let mut resolved = None;
+    if let [(name, change)] = cases {
+        let mut values = study.content.base.clone();
+        values.overlay(change);
+        resolved = resolve(&values, &name.text, &study.findings).map(|resolved| (name.text.clone(), resolved.case));
+    } else {
+        let message = format!("a run needs a file of one case, and this one has {}", cases.len());
+        study
+            .findings
+            .add(Finding::whole(message).help("start it with `cgaft study run`"));
+    }
+    resolved
+        .filter(|_| study.findings.is_empty())
+        .ok_or_else(|| study.error())
+}
+
+impl Study {
+    /// All that was found, as an error.
+    pub(crate) fn error(&self) -> StudyError {
+        StudyError::new(&self.file, Arc::clone(&self.text), self.findings.sorted())
+    }
+}
+
+/// A file of a later format is not read at all: every message about it would mislead.
+fn check_format(root: &Node) -> Result<(), Finding> {
+    let Some(node) = root.get("cgaft") else { return Ok(()) };
+    match node.text().parse::<u32>() {
+        Ok(FORMAT) => Ok(()),
+        Ok(other) if other > FORMAT => Err(Finding::at(
+            node.place,
+            format!("this study is written in format {other}; this cgaft reads format {FORMAT}"),
+        )
+        .help("install a newer cgaft")),
+        _ => {
+            Err(Finding::at(node.place, "this is not a format of study files").help(format!("write `cgaft: {FORMAT}`")))
+        }
+    }
 }

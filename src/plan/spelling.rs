@@ -1,0 +1,178 @@
+//! A case with the keys and units of a study file, every choice spelled out.
+
+use crate::{
+    study::case::{
+        AtCutoff, Case, Crack, Edge, Execution, Grips, Lattice, Loading, MassMatrix, Mode, Potential, PotentialShape,
+        Ramp, Region, RegionShape, Run, SnapshotInterval, Summation, TimeStep, Until,
+    },
+    units::{self, Dimension},
+};
+use serde_json::{Map, Value, json};
+
+/// The case as it would be typed: what `explain_difference` compares. How it is carried out is not among it.
+pub fn spelled(case: &Case) -> Value {
+    let Case {
+        material,
+        specimen,
+        resolution,
+        crack,
+        loading,
+        run,
+        probes,
+        snapshots,
+        execution: _,
+    } = case;
+    let Lattice::Triangular = specimen.lattice;
+    let regions: Vec<Value> = resolution.regions.iter().map(region).collect();
+    let mut whole = json!({
+        "material": {
+            "potential": potential(&material.potential),
+            "mass": quantity(material.mass, Dimension::Mass),
+            "thickness": length(material.thickness),
+        },
+        "specimen": {
+            "lattice": "triangular",
+            "length": length(specimen.length),
+            "width": length(specimen.width),
+            "block": specimen.block,
+            "grips": match specimen.grips {
+                Grips::Clamped => "clamped",
+                Grips::Sliding => "sliding",
+            },
+        },
+        "resolution": { "element": resolution.element, "regions": regions },
+    });
+    // The order of a study file: the crack stands between its specimen and its load.
+    if let Some(Crack {
+        edge: Edge::Left,
+        length: extent,
+    }) = crack
+    {
+        whole["crack"] = json!({ "edge": "left", "length": length(*extent) });
+    }
+    whole["loading"] = load(loading);
+    whole["run"] = running(run);
+    whole["probes"] = json!({ "every": time(probes.every) });
+    if let Some(every) = snapshots.every {
+        whole["snapshots"] = json!({ "every": interval(every) });
+    }
+    whole
+}
+
+/// How a case is carried out, as it would be typed into `run`.
+pub fn spelled_execution(execution: &Execution) -> Map<String, Value> {
+    let mut map = Map::new();
+    map.insert("ranks".into(), execution.ranks.into());
+    if let Some(threads) = execution.threads {
+        map.insert("threads".into(), threads.into());
+    }
+    map.insert(
+        "checkpoint-every".into(),
+        quantity(execution.checkpoint_every, Dimension::Duration),
+    );
+    map
+}
+
+fn quantity(value: f64, dimension: Dimension) -> Value {
+    units::format(value, dimension).into()
+}
+
+fn length(value: f64) -> Value {
+    quantity(value, Dimension::Length)
+}
+
+fn time(value: f64) -> Value {
+    quantity(value, Dimension::Time)
+}
+
+fn potential(potential: &Potential) -> Value {
+    let (name, mut values) = match potential.shape {
+        PotentialShape::LennardJones { epsilon, sigma } => (
+            "lennard-jones",
+            json!({ "epsilon": quantity(epsilon, Dimension::Energy), "sigma": length(sigma) }),
+        ),
+        PotentialShape::Morse { depth, decay, distance } => (
+            "morse",
+            json!({
+                "depth": quantity(depth, Dimension::Energy),
+                "decay": quantity(decay, Dimension::InverseLength),
+                "distance": length(distance),
+            }),
+        ),
+        PotentialShape::HarmonicBond { stiffness, distance } => (
+            "harmonic-bond",
+            json!({ "stiffness": quantity(stiffness, Dimension::Stiffness), "distance": length(distance) }),
+        ),
+    };
+    values["cutoff"] = length(potential.cutoff);
+    values["at-cutoff"] = match potential.at_cutoff {
+        AtCutoff::Truncated => "truncated".into(),
+        AtCutoff::Shifted => "shifted".into(),
+        AtCutoff::Smooth { from } => json!({ "smooth": { "from": length(from), "to": length(potential.cutoff) } }),
+    };
+    json!({ name: values })
+}
+
+fn region(region: &Region) -> Value {
+    let element = region.element;
+    match region.shape {
+        RegionShape::Band { half_width } => json!({ "band": { "half-width": length(half_width), "element": element } }),
+        RegionShape::Box { from, to } => {
+            json!({ "box": { "from": from.map(length), "to": to.map(length), "element": element } })
+        }
+        RegionShape::Disc { center, radius } => {
+            json!({ "disc": { "center": center.map(length), "radius": length(radius), "element": element } })
+        }
+    }
+}
+
+fn load(loading: &Loading) -> Value {
+    let Loading::StrainRate {
+        mode: Mode::I,
+        rate,
+        ramp,
+    } = *loading;
+    let ramp = match ramp {
+        Ramp::InitialVelocity => "initial-velocity",
+        Ramp::AtRest => "at-rest",
+    };
+    json!({ "strain-rate": { "mode": "I", "rate": quantity(rate, Dimension::Rate), "ramp": ramp } })
+}
+
+fn running(run: &Run) -> Value {
+    let Run {
+        until,
+        time_step,
+        summation: Summation::Exact,
+        mass: MassMatrix::Lumped,
+    } = run;
+    let time_step = match *time_step {
+        TimeStep::Auto { fraction } => json!({ "fraction": fraction }),
+        TimeStep::Given(step) => time(step),
+    };
+    json!({ "until": stop(until), "time-step": time_step, "summation": "exact", "mass": "lumped" })
+}
+
+fn stop(until: &Until) -> Value {
+    let conditions = [
+        (
+            "strain",
+            until.strain.map(|strain| quantity(strain, Dimension::Fraction)),
+        ),
+        ("time", until.time.map(time)),
+        ("crack-length", until.crack_length.map(length)),
+        ("arrest", until.arrest.map(time)),
+    ];
+    conditions
+        .into_iter()
+        .filter_map(|(name, value)| Some((name.to_owned(), value?)))
+        .collect::<Map<_, _>>()
+        .into()
+}
+
+fn interval(every: SnapshotInterval) -> Value {
+    match every {
+        SnapshotInterval::Strain(strain) => format!("{} strain", units::format(strain, Dimension::Fraction)).into(),
+        SnapshotInterval::Time(every) => time(every),
+    }
+}

@@ -1,0 +1,20 @@
+//! What a study may leave out, in one place. Choices that decide a result (material, size, load) have no default.
+
+use super::case::{AtCutoff, Edge, Grips, Lattice, MassMatrix, Mode, Ramp, Summation, TimeStep};
+
+pub const AT_CUTOFF: AtCutoff = AtCutoff::Truncated;
+pub const LATTICE: Lattice = Lattice::Triangular;
+/// The 55-atom triangle of [Deng2011], section 5.1.
+pub const BLOCK: u32 = 10;
+pub const GRIPS: Grips = Grips::Clamped;
+pub const EDGE: Edge = Edge::Left;
+pub const MODE: Mode = Mode::I;
+pub const RAMP: Ramp = Ramp::InitialVelocity;
+pub const TIME_STEP: TimeStep = TimeStep::Auto { fraction: 0.8 };
+pub const SUMMATION: Summation = Summation::Exact;
+pub const MASS: MassMatrix = MassMatrix::Lumped;
+pub const RANKS: u32 = 1;
+/// s
+pub const CHECKPOINT_EVERY: f64 = 60.0;
+/// ps
+pub const PROBES_EVERY: f64 = 1.0;

@@ -1,0 +1,335 @@
+//! The study file as typed: everything may be left out here, `resolve` and the defaults decide what must not be.
+//!
+//! The doc comments below are what an editor shows through the JSON Schema.
+
+use super::{
+    named::{Named, Sweep},
+    quantity::{Duration, Energy, Fraction, InverseLength, Length, Mass, Rate, Stiffness, Time},
+    reader::Given,
+};
+use schemars::JsonSchema;
+use serde::Deserialize;
+
+pub use super::quantity::Interval;
+
+/// A study: a question, cases that answer it, and what to show.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+#[schemars(rename = "Study")]
+pub struct StudyFile {
+    /// Version of this file format; 1 where left out.
+    pub cgaft: Given<u32>,
+    /// Name of the study, and of its folder of results.
+    pub study: Given<String>,
+    /// What the study is to find out; shown at the top of the report.
+    pub question: Given<String>,
+    /// What every case starts from.
+    pub base: Given<CaseFile>,
+    /// The cases by name, each with what it changes in the base.
+    pub cases: Given<Named<CaseFile>>,
+    /// Multiplies every case: a dotted path such as `resolution.element` and its values.
+    pub sweep: Given<Sweep>,
+    /// Reference tables to compare with, by quantity.
+    pub compare: Given<Named<String>>,
+    pub report: Given<Report>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Report {
+    /// Headline of the report; the name of the study where left out.
+    pub title: Given<String>,
+}
+
+/// One case, or the base that all cases start from.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+#[schemars(rename = "Case")]
+pub struct CaseFile {
+    pub material: Given<Material>,
+    pub specimen: Given<Specimen>,
+    pub resolution: Given<Resolution>,
+    pub crack: Given<Crack>,
+    pub loading: Given<Loading>,
+    pub run: Given<Run>,
+    pub probes: Given<Probes>,
+    /// Tables to show in the report, and how often to take a snapshot of the whole specimen.
+    pub observe: Given<Vec<Given<Observe>>>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Material {
+    pub potential: Given<Potential>,
+    /// Mass of one atom.
+    pub mass: Given<Mass>,
+    /// What a 2D stress (force per length) is divided by to become a pressure.
+    pub thickness: Given<Length>,
+}
+
+/// Pair potential.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Potential {
+    LennardJones(LennardJones),
+    Morse(Morse),
+    HarmonicBond(HarmonicBond),
+}
+
+/// 4 epsilon ((sigma/r)^12 - (sigma/r)^6)
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct LennardJones {
+    /// Depth of the well.
+    pub epsilon: Given<Energy>,
+    /// Where the energy is zero; the minimum is at 2^(1/6) of this.
+    pub sigma: Given<Length>,
+    /// Distance beyond which a pair does not interact.
+    pub cutoff: Given<Length>,
+    pub at_cutoff: Given<AtCutoff>,
+}
+
+/// depth ((1 - exp(-decay (r - distance)))^2 - 1)
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Morse {
+    pub depth: Given<Energy>,
+    pub decay: Given<InverseLength>,
+    /// Where the energy is least.
+    pub distance: Given<Length>,
+    /// Distance beyond which a pair does not interact.
+    pub cutoff: Given<Length>,
+    pub at_cutoff: Given<AtCutoff>,
+}
+
+/// A spring that snaps at the cutoff.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct HarmonicBond {
+    pub stiffness: Given<Stiffness>,
+    /// Length of the bond at rest.
+    pub distance: Given<Length>,
+    /// Length at which the bond snaps.
+    pub cutoff: Given<Length>,
+    pub at_cutoff: Given<AtCutoff>,
+}
+
+/// What happens where the potential ends.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum AtCutoff {
+    /// Cut where it stands: energy and force jump.
+    Truncated,
+    /// The energy is shifted to zero at the cutoff; the force jumps.
+    Shifted,
+    /// Energy and force are taken to zero between two distances.
+    Smooth(Smooth),
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Smooth {
+    /// Up to here the potential is untouched.
+    pub from: Given<Length>,
+    /// Here energy and force are zero: the cutoff.
+    pub to: Given<Length>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Specimen {
+    pub lattice: Given<Lattice>,
+    /// Extent along the crack (x).
+    pub length: Given<Length>,
+    /// Extent across the crack (y).
+    pub width: Given<Length>,
+    /// Atoms an edge of the triangles that lay out the specimen, whatever the resolution; 10 where left out.
+    pub block: Given<u32>,
+    pub grips: Given<Grips>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Lattice {
+    Triangular,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Grips {
+    /// The grips hold x too.
+    Clamped,
+    /// The grips leave x free.
+    Sliding,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Resolution {
+    /// Atoms an edge of an element; 1 is the single atom, and 2 does not exist.
+    pub element: Given<u32>,
+    /// Where finer elements are used; the finest region that holds a site decides.
+    pub regions: Given<Vec<Given<Region>>>,
+}
+
+/// A part of the specimen. x is measured from the left edge, y from the crack plane.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Region {
+    /// Both sides of the crack plane.
+    Band(Band),
+    Box(Rectangle),
+    Disc(Disc),
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Band {
+    pub half_width: Given<Length>,
+    /// Atoms an edge of an element here; 1 is the single atom.
+    pub element: Given<u32>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+#[schemars(rename = "Box")]
+pub struct Rectangle {
+    /// Lower left corner, [x, y].
+    pub from: Given<[Given<Length>; 2]>,
+    /// Upper right corner, [x, y].
+    pub to: Given<[Given<Length>; 2]>,
+    /// Atoms an edge of an element here; 1 is the single atom.
+    pub element: Given<u32>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Disc {
+    /// [x, y]
+    pub center: Given<[Given<Length>; 2]>,
+    pub radius: Given<Length>,
+    /// Atoms an edge of an element here; 1 is the single atom.
+    pub element: Given<u32>,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Crack {
+    /// The edge at which the crack begins.
+    pub edge: Given<Edge>,
+    pub length: Given<Length>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Edge {
+    Left,
+}
+
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Loading {
+    /// The grips move apart so that the nominal strain grows at a constant rate.
+    StrainRate(StrainRate),
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct StrainRate {
+    pub mode: Given<Mode>,
+    /// Nominal strain rate.
+    pub rate: Given<Rate>,
+    pub ramp: Given<Ramp>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+pub enum Mode {
+    /// Opening.
+    I,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Ramp {
+    /// The interior starts with the velocities of the loading, so that no shock enters.
+    InitialVelocity,
+    /// The interior starts at rest.
+    AtRest,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Run {
+    pub until: Given<Until>,
+    /// `auto`, `{fraction: 0.8}` of the stability limit, or a time.
+    pub time_step: Given<TimeStep>,
+    pub summation: Given<Summation>,
+    pub mass: Given<MassMatrix>,
+    /// Processes a case is shared between.
+    pub ranks: Given<u32>,
+    /// Threads of each process.
+    pub threads: Given<u32>,
+    /// Time on the wall between checkpoints.
+    pub checkpoint_every: Given<Duration>,
+}
+
+/// The run stops at whichever comes first; a strain or a time is needed.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Until {
+    /// Nominal strain.
+    pub strain: Given<Fraction>,
+    pub time: Given<Time>,
+    /// Distance of the tip from the edge at which the crack begins.
+    pub crack_length: Given<Length>,
+    /// The crack has started and then stood still for this long.
+    pub arrest: Given<Time>,
+}
+
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum TimeStep {
+    Auto,
+    Fraction(Given<f64>),
+    /// Any other word: a time.
+    #[serde(rename = "$otherwise")]
+    Given(Time),
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Summation {
+    /// Every bond.
+    Exact,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum MassMatrix {
+    Lumped,
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Probes {
+    /// Simulated time between rows of the time series.
+    pub every: Given<Time>,
+}
+
+/// A table of the report, or snapshots.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Observe {
+    Crack,
+    StressProfile,
+    WaveArrival,
+    AverageStress,
+    Snapshots(Snapshots),
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Snapshots {
+    /// A strain such as `0.05 % strain`, or a time.
+    pub every: Given<Interval>,
+}

@@ -1,0 +1,123 @@
+//! What is wrong with a study file, collected so that all of it can be said at once.
+
+use std::{cell::RefCell, collections::HashMap, ops::Range};
+
+/// A stretch of the text, in bytes.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Place {
+    pub start: usize,
+    pub end: usize,
+}
+
+impl Place {
+    pub fn range(self) -> Range<usize> {
+        self.start..self.end
+    }
+}
+
+/// One mistake: what is wrong, where, and what to do next.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// `None` where the file as a whole is wrong.
+    pub place: Option<Place>,
+    pub message: String,
+    pub help: Option<String>,
+    /// Other places that take part, with what is to be seen there.
+    pub related: Vec<(Place, String)>,
+    /// Names of the cases that have it; empty where it belongs to none in particular.
+    pub cases: Vec<String>,
+}
+
+impl Finding {
+    pub fn at(place: Place, message: impl Into<String>) -> Self {
+        Self {
+            place: Some(place),
+            message: message.into(),
+            help: None,
+            related: Vec::new(),
+            cases: Vec::new(),
+        }
+    }
+
+    /// About the file as a whole.
+    pub fn whole(message: impl Into<String>) -> Self {
+        Self {
+            place: None,
+            ..Self::at(Place::default(), message)
+        }
+    }
+
+    pub fn help(mut self, help: impl Into<String>) -> Self {
+        self.help = Some(help.into());
+        self
+    }
+
+    pub fn with(mut self, place: Place, what: impl Into<String>) -> Self {
+        self.related.push((place, what.into()));
+        self
+    }
+
+    pub fn case(mut self, name: &str) -> Self {
+        self.cases.push(name.into());
+        self
+    }
+}
+
+/// All mistakes found so far, each once, however many cases have it.
+#[derive(Clone, Debug, Default)]
+pub struct Findings {
+    list: RefCell<Vec<Finding>>,
+    seen: RefCell<HashMap<(Option<Place>, String), usize>>,
+}
+
+impl Findings {
+    pub fn add(&self, finding: Finding) {
+        let mut list = self.list.borrow_mut();
+        let key = (finding.place, finding.message.clone());
+        match self.seen.borrow_mut().get(&key) {
+            Some(index) => list[*index].cases.extend(finding.cases),
+            None => {
+                self.seen.borrow_mut().insert(key, list.len());
+                list.push(finding);
+            }
+        }
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.list.borrow().is_empty()
+    }
+
+    /// In the order of the file.
+    pub fn sorted(&self) -> Vec<Finding> {
+        let mut list = self.list.borrow().clone();
+        list.sort_by_key(|finding| finding.place);
+        list
+    }
+}
+
+/// "did you mean `length`?", or all that would have been right.
+pub fn suggestion(word: &str, names: &[&str]) -> String {
+    match nearest(word, names) {
+        Some(near) => format!("did you mean `{near}`?"),
+        None => format!("write {}", alternatives(names)),
+    }
+}
+
+/// The name that `word` was most likely meant to be.
+pub fn nearest<'a>(word: &str, names: &[&'a str]) -> Option<&'a str> {
+    let plain = |text: &str| text.to_lowercase().replace(['_', ' '], "-");
+    let word: String = plain(word).chars().take(80).collect();
+    let distance = |name: &&str| strsim::osa_distance(&plain(name), &word);
+    let near = names.iter().copied().min_by_key(distance)?;
+    (distance(&near) <= 1.max(word.chars().count().min(near.len()) / 3)).then_some(near)
+}
+
+/// "`a`, `b` or `c`".
+pub fn alternatives(names: &[&str]) -> String {
+    let quoted: Vec<String> = names.iter().map(|name| format!("`{name}`")).collect();
+    match quoted.split_last() {
+        None => "nothing".into(),
+        Some((last, [])) => last.clone(),
+        Some((last, rest)) => format!("{} or {last}", rest.join(", ")),
+    }
+}

@@ -1,0 +1,101 @@
+//! What a case or a sweep changes, laid over what it starts from.
+//!
+//! Sections go field by field, and so does a choice (such as a potential) of the same kind; a choice of another kind,
+//! a list and a single value replace what was there.
+
+use super::{file::*, quantity::Quantity, reader::Given};
+
+pub trait Overlay {
+    /// Sections keep the place at which they were first given: what they lack is missing there.
+    const SECTION: bool = false;
+
+    fn overlay(&mut self, over: &Self);
+}
+
+impl<T: Overlay + Clone> Overlay for Given<T> {
+    fn overlay(&mut self, over: &Self) {
+        match (self, over) {
+            (_, Given::Absent) => (),
+            (Given::Right(value, place), Given::Right(change, changed)) => {
+                value.overlay(change);
+                if !T::SECTION {
+                    *place = *changed;
+                }
+            }
+            (whatever, _) => *whatever = over.clone(),
+        }
+    }
+}
+
+macro_rules! field_by_field {
+    ($($section:ident { $($field:ident)* })*) => {$(
+        impl Overlay for $section {
+            const SECTION: bool = true;
+
+            fn overlay(&mut self, over: &Self) {
+                $(self.$field.overlay(&over.$field);)*
+            }
+        }
+    )*};
+}
+
+field_by_field! {
+    CaseFile { material specimen resolution crack loading run probes observe }
+    Material { potential mass thickness }
+    LennardJones { epsilon sigma cutoff at_cutoff }
+    Morse { depth decay distance cutoff at_cutoff }
+    HarmonicBond { stiffness distance cutoff at_cutoff }
+    Smooth { from to }
+    Specimen { lattice length width block grips }
+    Resolution { element regions }
+    Crack { edge length }
+    StrainRate { mode rate ramp }
+    Run { until time_step summation mass ranks threads checkpoint_every }
+    Until { strain time crack_length arrest }
+    Probes { every }
+}
+
+macro_rules! replaced {
+    ($($value:ty)*) => {$(
+        impl Overlay for $value {
+            fn overlay(&mut self, over: &Self) {
+                self.clone_from(over);
+            }
+        }
+    )*};
+}
+
+replaced! { u32 Lattice Grips Edge Mode Ramp TimeStep Summation MassMatrix Vec<Given<Region>> Vec<Given<Observe>> }
+
+impl<K: Copy> Overlay for Quantity<K> {
+    fn overlay(&mut self, over: &Self) {
+        *self = *over;
+    }
+}
+
+impl Overlay for Potential {
+    fn overlay(&mut self, over: &Self) {
+        match (self, over) {
+            (Potential::LennardJones(values), Potential::LennardJones(changes)) => values.overlay(changes),
+            (Potential::Morse(values), Potential::Morse(changes)) => values.overlay(changes),
+            (Potential::HarmonicBond(values), Potential::HarmonicBond(changes)) => values.overlay(changes),
+            (whatever, _) => *whatever = over.clone(),
+        }
+    }
+}
+
+impl Overlay for AtCutoff {
+    fn overlay(&mut self, over: &Self) {
+        match (self, over) {
+            (AtCutoff::Smooth(values), AtCutoff::Smooth(changes)) => values.overlay(changes),
+            (whatever, _) => *whatever = over.clone(),
+        }
+    }
+}
+
+impl Overlay for Loading {
+    fn overlay(&mut self, over: &Self) {
+        let (Loading::StrainRate(values), Loading::StrainRate(changes)) = (self, over);
+        values.overlay(changes);
+    }
+}

@@ -1,0 +1,217 @@
+//! Loading, when to stop, time step, what to observe, and how the case is carried out.
+
+use super::{At, Check, nanometres, specimen::SpecimenAt};
+use crate::study::{
+    case::{
+        Crack, Execution, Loading, MassMatrix, Mode, Probes, Ramp, Run, SnapshotInterval, Snapshots, Summation,
+        TimeStep, Until,
+    },
+    defaults,
+    file::{self, Interval, Observe},
+    finding::{Finding, Place},
+    quantity::{Fraction, Time},
+    reader::Given,
+};
+
+/// A run and where its end was given.
+pub struct RunAt {
+    pub run: Run,
+    pub until: UntilAt,
+}
+
+#[derive(Clone, Copy)]
+pub struct UntilAt {
+    crack_length: Option<At<f64>>,
+    arrest: Option<At<f64>>,
+}
+
+impl Check<'_> {
+    pub fn loading(&self, given: &Given<file::Loading>, case: Place) -> Option<Loading> {
+        let (loading, place) = self.need(given, case, "loading", "{strain-rate: {mode: I, rate: 4.6e6 /s}}")?;
+        let file::Loading::StrainRate(values) = loading;
+        let mode = match &values.mode {
+            Given::Absent => Some(defaults::MODE),
+            Given::Wrong(_) => None,
+            Given::Right(file::Mode::I, _) => Some(Mode::I),
+        };
+        let ramp = match &values.ramp {
+            Given::Absent => Some(defaults::RAMP),
+            Given::Wrong(_) => None,
+            Given::Right(file::Ramp::InitialVelocity, _) => Some(Ramp::InitialVelocity),
+            Given::Right(file::Ramp::AtRest, _) => Some(Ramp::AtRest),
+        };
+        let (rate, _) = self.size(&values.rate, place, "strain-rate.rate")?;
+        Some(Loading::StrainRate {
+            mode: mode?,
+            rate,
+            ramp: ramp?,
+        })
+    }
+
+    pub fn run(&self, given: &Given<file::Run>, case: Place) -> Option<RunAt> {
+        let (values, place) = self.section(given, case)?;
+        let until = self.until(&values.until, place);
+        let time_step = self.time_step(&values.time_step);
+        let summation = match &values.summation {
+            Given::Absent => Some(defaults::SUMMATION),
+            Given::Wrong(_) => None,
+            Given::Right(file::Summation::Exact, _) => Some(Summation::Exact),
+        };
+        let mass = match &values.mass {
+            Given::Absent => Some(defaults::MASS),
+            Given::Wrong(_) => None,
+            Given::Right(file::MassMatrix::Lumped, _) => Some(MassMatrix::Lumped),
+        };
+        let (until, places) = until?;
+        Some(RunAt {
+            run: Run {
+                until,
+                time_step: time_step?,
+                summation: summation?,
+                mass: mass?,
+            },
+            until: places,
+        })
+    }
+
+    fn until(&self, given: &Given<file::Until>, run: Place) -> Option<(Until, UntilAt)> {
+        let (values, place) = self.need(given, run, "run.until", "{strain: 1.2 %}")?;
+        if matches!((&values.strain, &values.time), (Given::Absent, Given::Absent)) {
+            let message = "nothing is sure to stop this run: `until` has neither a strain nor a time";
+            self.add(Finding::at(place, message).help("write `strain: 1.2 %` or `time: 200 ps` into `until`"));
+        }
+        let strain = self.size_if_given(&values.strain, "until.strain");
+        let time = self.size_if_given(&values.time, "until.time");
+        let crack_length = self.size_if_given(&values.crack_length, "until.crack-length");
+        let arrest = self.size_if_given(&values.arrest, "until.arrest");
+        let (strain, time, crack_length, arrest) = (strain?, time?, crack_length?, arrest?);
+        strain.or(time)?;
+        let value = |at: Option<At<f64>>| at.map(|(value, _)| value);
+        let until = Until {
+            strain: value(strain),
+            time: value(time),
+            crack_length: value(crack_length),
+            arrest: value(arrest),
+        };
+        Some((until, UntilAt { crack_length, arrest }))
+    }
+
+    /// Stop conditions that speak of the crack must be able to come true, and not at once.
+    pub fn stops(&self, until: &UntilAt, crack: Option<&At<Crack>>, specimen: Option<&SpecimenAt>) {
+        let Some((crack, given)) = crack else {
+            for (_, place) in until.crack_length.iter().chain(&until.arrest) {
+                let message = "this waits for a crack, and the case has none";
+                self.add(Finding::at(*place, message).help("give a `crack`, or stop at a strain or a time"));
+            }
+            return;
+        };
+        let Some((length, place)) = until.crack_length else {
+            return;
+        };
+        if length <= crack.length {
+            let message = format!(
+                "the crack ({}) is as long as this from the start ({})",
+                nanometres(crack.length),
+                nanometres(length)
+            );
+            self.add(
+                Finding::at(place, message)
+                    .with(*given, "the crack")
+                    .help("stop at a longer crack"),
+            );
+        }
+        if let Some(SpecimenAt {
+            specimen,
+            length: given,
+            ..
+        }) = specimen
+            && length > specimen.length
+        {
+            let message = format!(
+                "no crack can grow to {} in a specimen of {}",
+                nanometres(length),
+                nanometres(specimen.length)
+            );
+            self.add(
+                Finding::at(place, message)
+                    .with(*given, "the specimen")
+                    .help("stop at a shorter crack"),
+            );
+        }
+    }
+
+    fn time_step(&self, given: &Given<file::TimeStep>) -> Option<TimeStep> {
+        match given {
+            Given::Absent => Some(defaults::TIME_STEP),
+            Given::Wrong(_) => None,
+            Given::Right(file::TimeStep::Auto, _) => Some(defaults::TIME_STEP),
+            Given::Right(file::TimeStep::Given(step), place) => self
+                .positive(*step, *place, "run.time-step")
+                .map(|(step, _)| TimeStep::Given(step)),
+            Given::Right(file::TimeStep::Fraction(fraction), _) => {
+                let Given::Right(fraction, place) = *fraction else {
+                    return None;
+                };
+                if fraction > 0.0 && fraction <= 1.0 {
+                    return Some(TimeStep::Auto { fraction });
+                }
+                let message = format!(
+                    "the time step must be more than 0 and at most 1 of the stability limit, and {fraction} is not"
+                );
+                self.add(Finding::at(place, message).help("write `time-step: auto` for a safe fraction"));
+                None
+            }
+        }
+    }
+
+    pub fn execution(&self, given: &Given<file::Run>) -> Option<Execution> {
+        let (values, _) = self.section(given, Place::default())?;
+        let ranks = self.counted(&values.ranks, "run.ranks");
+        let threads = self.counted(&values.threads, "run.threads");
+        let every = self.size_if_given(&values.checkpoint_every, "run.checkpoint-every");
+        Some(Execution {
+            ranks: ranks?.unwrap_or(defaults::RANKS),
+            threads: threads?,
+            checkpoint_every: every?.map_or(defaults::CHECKPOINT_EVERY, |(every, _)| every),
+        })
+    }
+
+    pub fn probes(&self, given: &Given<file::Probes>) -> Option<Probes> {
+        let (values, _) = self.section(given, Place::default())?;
+        let every = self.size_if_given(&values.every, "probes.every")?;
+        Some(Probes {
+            every: every.map_or(defaults::PROBES_EVERY, |(every, _)| every),
+        })
+    }
+
+    pub fn snapshots(&self, given: &Given<Vec<Given<Observe>>>) -> Option<Snapshots> {
+        let items = match given {
+            Given::Absent => return Some(Snapshots { every: None }),
+            Given::Wrong(_) => return None,
+            Given::Right(items, _) => items,
+        };
+        let mut asked = items.iter().filter_map(|item| match item {
+            Given::Right(Observe::Snapshots(snapshots), place) => Some((snapshots, *place)),
+            _ => None,
+        });
+        let Some((snapshots, first)) = asked.next() else {
+            return Some(Snapshots { every: None });
+        };
+        if let Some((_, second)) = asked.next() {
+            self.add(
+                Finding::at(second, "snapshots are asked for twice")
+                    .with(first, "here first")
+                    .help("keep one of the two"),
+            );
+            return None;
+        }
+        let (every, place) = self.need(&snapshots.every, first, "snapshots.every", "0.05 % strain")?;
+        let every = match every {
+            Interval::Strain(strain) => {
+                SnapshotInterval::Strain(self.positive(Fraction::new(strain), place, "snapshots.every")?.0)
+            }
+            Interval::Time(time) => SnapshotInterval::Time(self.positive(Time::new(time), place, "snapshots.every")?.0),
+        };
+        Some(Snapshots { every: Some(every) })
+    }
+}
