@@ -174,18 +174,18 @@ impl Claim {
     }
 }
 
-/// Flushes every file of a run to the disk; their sizes by name.
+/// Flushes every file of a run to the disk, but for what a killed process has left half written; their sizes by name.
 fn sync_files(folder: &Path) -> Result<BTreeMap<String, u64>, StoreError> {
     let mut sizes = BTreeMap::new();
     for entry in fs::read_dir(folder).map_err(StoreError::read(folder))? {
         let path = entry.map_err(StoreError::read(folder))?.path();
         let metadata = fs::metadata(&path).map_err(StoreError::read(&path))?;
-        if metadata.is_file() {
+        let name = path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+        if name.ends_with(files::ASIDE) {
+            files::remove(&path)?;
+        } else if metadata.is_file() {
             files::sync(&path)?;
-            sizes.insert(
-                path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-                metadata.len(),
-            );
+            sizes.insert(name, metadata.len());
         }
     }
     Ok(sizes)

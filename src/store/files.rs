@@ -9,11 +9,15 @@ use serde::de::DeserializeOwned;
 
 use super::StoreError;
 
+/// End of the name of a file that is still being written.
+pub const ASIDE: &str = ".new";
+
 /// Writes `value` aside, flushes it to the disk and renames it into place.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
     let mut text = serde_json::to_vec_pretty(value).expect("these types always have a JSON form");
     text.push(b'\n');
-    let aside = path.with_extension("json.new");
+    // Two processes may write the same file at once: each has its own aside, and the last one wins.
+    let aside = path.with_extension(format!("{}{ASIDE}", std::process::id()));
     let write = || {
         let mut file = File::create(&aside)?;
         file.write_all(&text)?;
