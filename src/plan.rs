@@ -54,7 +54,9 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let mut cases = Vec::new();
     // Names end up as folders, and not every file system tells B from b.
     let mut places: HashMap<String, Place> = HashMap::new();
-    for draft in expansion::expand(content, findings) {
+    let drafts = expansion::expand(content, findings);
+    let number = drafts.len();
+    for draft in drafts {
         if let Some(first) = places.insert(draft.name.to_lowercase(), draft.place) {
             let message = format!("two cases would be called `{}`", draft.name);
             findings.add(
@@ -73,6 +75,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
             });
         }
     }
+    findings.forget_common_cases(number);
     if !findings.is_empty() {
         return Err(Study {
             findings: findings.clone(),

@@ -25,7 +25,7 @@ pub(crate) use named::{Name, Sweep};
 pub(crate) use overlay::Overlay;
 pub(crate) use reader::{Given, read as read_tree};
 pub use resolve::Table;
-pub(crate) use resolve::{Resolved, resolve};
+pub(crate) use resolve::resolve;
 pub use schema::schema;
 pub use source::SHIPPED;
 pub(crate) use tree::{Node, Value};
@@ -57,7 +57,7 @@ pub fn read_text(file: &str, text: &str) -> Result<Study, StudyError> {
     let text: Arc<str> = text.into();
     let fail = |finding: Finding| StudyError::new(file, Arc::clone(&text), vec![finding]);
     let root = tree::parse(&text, &findings).map_err(fail)?;
-    check_format(&root).map_err(fail)?;
+    check_root(&root).map_err(fail)?;
     let content = match read_tree(&root, &findings) {
         Given::Right(content, _) => content,
         _ => StudyFile::default(),
@@ -85,6 +85,7 @@ pub fn read_case(path: &str) -> Result<(String, Case), StudyError> {
             .findings
             .add(Finding::whole(message).help("start it with `cgaft study run`"));
     }
+    study.findings.forget_common_cases(1);
     resolved
         .filter(|_| study.findings.is_empty())
         .ok_or_else(|| study.error())
@@ -97,8 +98,12 @@ impl Study {
     }
 }
 
-/// A file of a later format is not read at all: every message about it would mislead.
-fn check_format(root: &Node) -> Result<(), Finding> {
+/// What is no study at all, or of a later format, is not read further: every message about it would mislead.
+fn check_root(root: &Node) -> Result<(), Finding> {
+    if !matches!(root.value, Value::Map(_)) {
+        let message = "this is not a study, which begins with `study: name` and has `base` and `cases`";
+        return Err(Finding::at(root.place, message).help("`cgaft new NAME` writes a commented study to start from"));
+    }
     let Some(node) = root.get("cgaft") else { return Ok(()) };
     match node.text().parse::<u32>() {
         Ok(FORMAT) => Ok(()),

@@ -2,7 +2,9 @@
 
 mod suite {
     mod cli;
+    mod dump;
     mod executor;
     mod store;
+    mod study_files;
     mod tidy;
 }

@@ -65,31 +65,44 @@ impl Finding {
 
 /// All mistakes found so far, each once, however many cases have it.
 #[derive(Clone, Debug, Default)]
-pub struct Findings {
-    list: RefCell<Vec<Finding>>,
-    seen: RefCell<HashMap<(Option<Place>, String), usize>>,
+pub struct Findings(RefCell<Collection>);
+
+#[derive(Clone, Debug, Default)]
+struct Collection {
+    list: Vec<Finding>,
+    /// Where in the list a message about a place stands.
+    index: HashMap<(Option<Place>, String), usize>,
 }
 
 impl Findings {
     pub fn add(&self, finding: Finding) {
-        let mut list = self.list.borrow_mut();
-        let key = (finding.place, finding.message.clone());
-        match self.seen.borrow_mut().get(&key) {
-            Some(index) => list[*index].cases.extend(finding.cases),
-            None => {
-                self.seen.borrow_mut().insert(key, list.len());
-                list.push(finding);
+        let Collection { list, index } = &mut *self.0.borrow_mut();
+        let at = *index
+            .entry((finding.place, finding.message.clone()))
+            .or_insert(list.len());
+        match list.get_mut(at) {
+            Some(known) => known.cases.extend(finding.cases),
+            None => list.push(finding),
+        }
+    }
+
+    /// What all cases have in common is no matter of single ones; `number` of them there are.
+    pub fn forget_common_cases(&self, number: usize) {
+        for finding in &mut self.0.borrow_mut().list {
+            finding.cases.dedup();
+            if finding.cases.len() == number {
+                finding.cases.clear();
             }
         }
     }
 
     pub fn is_empty(&self) -> bool {
-        self.list.borrow().is_empty()
+        self.0.borrow().list.is_empty()
     }
 
     /// In the order of the file.
     pub fn sorted(&self) -> Vec<Finding> {
-        let mut list = self.list.borrow().clone();
+        let mut list = self.0.borrow().list.clone();
         list.sort_by_key(|finding| finding.place);
         list
     }

@@ -4,7 +4,7 @@
 //! becomes `Given::Wrong`, its mistake noted, while its neighbours are read as usual.
 
 use super::{
-    finding::{Finding, Findings, Place, alternatives, suggestion},
+    finding::{Finding, Findings, Place, alternatives, nearest, suggestion},
     tree::{Node, Value},
 };
 use serde::de::{self, Deserialize, DeserializeSeed, Deserializer, Expected, IntoDeserializer, Unexpected, Visitor};
@@ -152,12 +152,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
                 reader: self,
                 items: items.iter(),
             }),
-            Value::Map(entries) => visitor.visit_map(Entries {
-                reader: self,
-                entries: entries.iter(),
-                value: None,
-                fields: None,
-            }),
+            Value::Map(entries) => visitor.visit_map(Entries::new(self, entries, None)),
         }
     }
 
@@ -221,12 +216,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         match &self.node.value {
-            Value::Null => visitor.visit_map(Entries {
-                reader: self,
-                entries: [].iter(),
-                value: None,
-                fields: None,
-            }),
+            Value::Null => visitor.visit_map(Entries::new(self, &[], None)),
             Value::Map(_) => self.deserialize_any(visitor),
             _ => Err(self.unexpected(&"a map of names and values")),
         }
@@ -239,16 +229,11 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         visitor: V,
     ) -> Result<V::Value, Fault> {
         let entries = match &self.node.value {
-            Value::Null => [].iter(),
-            Value::Map(entries) => entries.iter(),
+            Value::Null => [].as_slice(),
+            Value::Map(entries) => entries,
             _ => return Err(self.unexpected(&format!("a map with {}", alternatives(fields)).as_str())),
         };
-        visitor.visit_map(Entries {
-            reader: self,
-            entries,
-            value: None,
-            fields: Some(fields),
-        })
+        visitor.visit_map(Entries::new(self, entries, Some(fields)))
     }
 
     fn deserialize_enum<V: Visitor<'de>>(
@@ -280,11 +265,14 @@ impl<'de> Deserializer<'de> for Reader<'de> {
             });
         }
         if otherwise && content.is_none() {
-            return visitor.visit_enum(Variant {
+            let variant = Variant {
                 reader: self.at(key),
                 name: OTHERWISE,
                 content: Some(self.node),
-            });
+            };
+            let read = visitor.visit_enum(variant);
+            return read
+                .map_err(|fault: Fault| fault.help(suggestion(name, &named(variants)).replace("write", "or write")));
         }
         let message = format!(
             "expected {}, found `{}`",
@@ -365,25 +353,55 @@ struct Entries<'a> {
     value: Option<(&'a str, &'a Node)>,
     /// The keys that are allowed, where not all are.
     fields: Option<&'static [&'static str]>,
+    /// Keys that were meant by mistyped ones.
+    meant: Vec<&'static str>,
+}
+
+impl<'a> Entries<'a> {
+    fn new(reader: Reader<'a>, entries: &'a [(Node, Node)], fields: Option<&'static [&'static str]>) -> Self {
+        Self {
+            reader,
+            entries: entries.iter(),
+            value: None,
+            fields,
+            meant: Vec::new(),
+        }
+    }
+
+    /// Note a key that does not exist. If it is clear what was meant, that is read instead, so that one slip of the
+    /// finger is one mistake and the value is checked all the same.
+    fn mistyped(&mut self, key: &Node, fields: &'static [&'static str]) -> Option<&'static str> {
+        let within = match self.reader.within {
+            "" => "a study".into(),
+            key => format!("`{key}`"),
+        };
+        let message = format!("`{}` is not a key of {within}", shortened(key.text()));
+        self.reader
+            .findings
+            .add(Finding::at(key.place, message).help(suggestion(key.text(), fields)));
+        let meant = nearest(key.text(), fields)?;
+        if self.reader.node.get(meant).is_some() || self.meant.contains(&meant) {
+            return None;
+        }
+        self.meant.push(meant);
+        Some(meant)
+    }
 }
 
 impl<'de> de::MapAccess<'de> for Entries<'de> {
     type Error = Fault;
 
     fn next_key_seed<K: DeserializeSeed<'de>>(&mut self, seed: K) -> Result<Option<K::Value>, Fault> {
-        for (key, value) in self.entries.by_ref() {
+        while let Some((key, value)) = self.entries.next() {
             let Some(fields) = self.fields.filter(|fields| !fields.contains(&key.text())) else {
                 self.value = Some((key.text(), value));
                 return seed.deserialize(self.reader.at(key)).map(Some);
             };
-            let within = match self.reader.within {
-                "" => "a study".into(),
-                key => format!("`{key}`"),
-            };
-            let message = format!("`{}` is not a key of {within}", shortened(key.text()));
-            self.reader
-                .findings
-                .add(Finding::at(key.place, message).help(suggestion(key.text(), fields)));
+            if let Some(meant) = self.mistyped(key, fields) {
+                self.value = Some((meant, value));
+                let name: de::value::StrDeserializer<Fault> = meant.into_deserializer();
+                return seed.deserialize(name).map(Some);
+            }
         }
         Ok(None)
     }

@@ -47,25 +47,25 @@ pub fn resolve(case: &Given<CaseFile>, name: &str, findings: &Findings) -> Optio
     let check = Check { findings, case: name };
     let (case, place) = check.section(case, Place::default())?;
     let tables = tables(&case.observe);
-    let material = check.material(&case.material, place);
-    let specimen = check.specimen(&case.specimen, place, material.as_ref());
-    let resolution = check.resolution(&case.resolution, place, specimen.as_ref());
-    let crack = check.crack(&case.crack, specimen.as_ref());
+    let (material, spacing) = check.material(&case.material, place);
+    let specimen = check.specimen(&case.specimen, place, spacing);
+    let resolution = check.resolution(&case.resolution, place, &specimen);
+    let crack = check.crack(&case.crack, &specimen);
     let loading = check.loading(&case.loading, place);
-    let run = check.run(&case.run, place);
-    if let (Some(run), Some(crack)) = (&run, &crack) {
-        check.stops(&run.until, crack.as_ref(), specimen.as_ref());
+    let (run, until) = check.run(&case.run, place);
+    if let (Some(until), Some(crack)) = (until, &crack) {
+        check.stops(until, crack.as_ref(), &specimen);
     }
     let execution = check.execution(&case.run);
     let probes = check.probes(&case.probes);
     let snapshots = check.snapshots(&case.observe);
     let case = Case {
         material: material?,
-        specimen: specimen?.specimen,
+        specimen: specimen.specimen?,
         resolution: resolution?,
         crack: crack?.map(|(crack, _)| crack),
         loading: loading?,
-        run: run?.run,
+        run: run?,
         probes: probes?,
         snapshots: snapshots?,
         execution: execution?,
@@ -137,7 +137,7 @@ impl Check<'_> {
 
     /// A quantity that has no default and is more than zero.
     fn size<K: Kind>(&self, given: &Given<Quantity<K>>, section: Place, path: &str) -> Option<At<f64>> {
-        let (quantity, place) = self.need(given, section, path, K::DIMENSION.example())?;
+        let (quantity, place) = self.need(given, section, path, example(path, K::DIMENSION))?;
         self.positive(quantity, place, path)
     }
 
@@ -156,7 +156,7 @@ impl Check<'_> {
         }
         self.add(
             Finding::at(place, format!("`{path}` must be more than zero, and {quantity} is not"))
-                .help(format!("write for example {}", K::DIMENSION.example())),
+                .help(format!("write for example {}", example(path, K::DIMENSION))),
         );
         None
     }
@@ -174,6 +174,22 @@ impl Check<'_> {
             Given::Wrong(_) => None,
             Given::Absent => Some(None),
         }
+    }
+}
+
+/// A quantity that would be right, of the size that this one usually has.
+fn example(path: &str, dimension: units::Dimension) -> &'static str {
+    match path.rsplit('.').next() {
+        Some("sigma") => "0.2277 nm",
+        Some("distance" | "from") => "0.2556 nm",
+        Some("cutoff" | "to") => "0.34 nm",
+        Some("thickness") => "0.2087 nm",
+        Some("half-width" | "radius") => "9 nm",
+        _ if path == "probes.every" => "1 ps",
+        _ if path == "run.time-step" => "2 fs",
+        _ if path == "crack.length" => "56 nm",
+        _ if path == "specimen.length" => "566 nm",
+        _ => dimension.example(),
     }
 }
 

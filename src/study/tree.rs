@@ -3,7 +3,7 @@
 //! Values are kept as the text that was typed, so that no number is rounded before its unit is known.
 
 use super::finding::{Finding, Findings, Place};
-use serde_saphyr::granit_parser::{Event, Options, Parser, ScalarStyle, ScanError, Span, options};
+use serde_saphyr::granit_parser::{ErrorKind, Event, Options, Parser, ScalarStyle, ScanError, Span, options};
 use std::collections::HashMap;
 
 #[derive(Clone, Debug, PartialEq)]
@@ -274,5 +274,9 @@ fn unreadable(text: &str, error: &ScanError) -> Finding {
         "check indentation, brackets, quotes and the blank after each colon up to this place"
     };
     let place = first_character(text, Place { start, end: start });
+    if *error.kind() == ErrorKind::UnknownAnchor {
+        let message = "this alias (`*name`) stands for nothing that came before it";
+        return Finding::at(place, message).help("mark what it repeats by `&name`, or write the value out");
+    }
     Finding::at(place, format!("this is not YAML: {}", error.info())).help(help)
 }

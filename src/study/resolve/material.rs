@@ -11,18 +11,24 @@ use crate::study::{
 };
 
 impl Check<'_> {
-    pub fn material(&self, given: &Given<file::Material>, case: Place) -> Option<Material> {
-        let (values, place) = self.section(given, case)?;
+    /// The material, and the distance at which two atoms rest (nm), which may be known although the whole is not.
+    pub fn material(&self, given: &Given<file::Material>, case: Place) -> (Option<Material>, Option<f64>) {
+        let Some((values, place)) = self.section(given, case) else {
+            return (None, None);
+        };
         let example = "{lennard-jones: {epsilon: 0.415 eV, sigma: 0.2277 nm, cutoff: 0.34 nm}}";
         let potential = self.need(&values.potential, place, "material.potential", example);
         let potential = potential.and_then(|(potential, place)| self.potential(&potential, place));
+        let spacing = potential.as_ref().map(|potential| minimum(&potential.shape));
         let mass = self.size(&values.mass, place, "material.mass");
         let thickness = self.size(&values.thickness, place, "material.thickness");
-        Some(Material {
-            potential: potential?,
-            mass: mass?.0,
-            thickness: thickness?.0,
-        })
+        let parts = potential.zip(mass).zip(thickness);
+        let material = parts.map(|((potential, (mass, _)), (thickness, _))| Material {
+            potential,
+            mass,
+            thickness,
+        });
+        (material, spacing)
     }
 
     fn potential(&self, given: &file::Potential, place: Place) -> Option<Potential> {
@@ -151,7 +157,7 @@ impl Check<'_> {
 }
 
 /// Distance at which two atoms rest, nm.
-pub fn minimum(shape: &PotentialShape) -> f64 {
+fn minimum(shape: &PotentialShape) -> f64 {
     match *shape {
         PotentialShape::LennardJones { sigma, .. } => 2_f64.powf(1.0 / 6.0) * sigma,
         PotentialShape::Morse { distance, .. } | PotentialShape::HarmonicBond { distance, .. } => distance,

@@ -13,14 +13,9 @@ use crate::study::{
     reader::Given,
 };
 
-/// A run and where its end was given.
-pub struct RunAt {
-    pub run: Run,
-    pub until: UntilAt,
-}
-
+/// Stop conditions that speak of the crack, and where they were given.
 #[derive(Clone, Copy)]
-pub struct UntilAt {
+pub struct CrackStops {
     crack_length: Option<At<f64>>,
     arrest: Option<At<f64>>,
 }
@@ -48,9 +43,12 @@ impl Check<'_> {
         })
     }
 
-    pub fn run(&self, given: &Given<file::Run>, case: Place) -> Option<RunAt> {
-        let (values, place) = self.section(given, case)?;
-        let until = self.until(&values.until, place);
+    /// The run, and its stop conditions, which may be known although the whole is not.
+    pub fn run(&self, given: &Given<file::Run>, case: Place) -> (Option<Run>, Option<CrackStops>) {
+        let Some((values, place)) = self.section(given, case) else {
+            return (None, None);
+        };
+        let (until, stops) = self.until(&values.until, place).unzip();
         let time_step = self.time_step(&values.time_step);
         let summation = match &values.summation {
             Given::Absent => Some(defaults::SUMMATION),
@@ -62,19 +60,17 @@ impl Check<'_> {
             Given::Wrong(_) => None,
             Given::Right(file::MassMatrix::Lumped, _) => Some(MassMatrix::Lumped),
         };
-        let (until, places) = until?;
-        Some(RunAt {
-            run: Run {
-                until,
-                time_step: time_step?,
-                summation: summation?,
-                mass: mass?,
-            },
-            until: places,
-        })
+        let parts = until.zip(time_step).zip(summation.zip(mass));
+        let run = parts.map(|((until, time_step), (summation, mass))| Run {
+            until,
+            time_step,
+            summation,
+            mass,
+        });
+        (run, stops)
     }
 
-    fn until(&self, given: &Given<file::Until>, run: Place) -> Option<(Until, UntilAt)> {
+    fn until(&self, given: &Given<file::Until>, run: Place) -> Option<(Until, CrackStops)> {
         let (values, place) = self.need(given, run, "run.until", "{strain: 1.2 %}")?;
         if matches!((&values.strain, &values.time), (Given::Absent, Given::Absent)) {
             let message = "nothing is sure to stop this run: `until` has neither a strain nor a time";
@@ -93,48 +89,42 @@ impl Check<'_> {
             crack_length: value(crack_length),
             arrest: value(arrest),
         };
-        Some((until, UntilAt { crack_length, arrest }))
+        Some((until, CrackStops { crack_length, arrest }))
     }
 
     /// Stop conditions that speak of the crack must be able to come true, and not at once.
-    pub fn stops(&self, until: &UntilAt, crack: Option<&At<Crack>>, specimen: Option<&SpecimenAt>) {
+    pub fn stops(&self, stops: CrackStops, crack: Option<&At<Crack>>, specimen: &SpecimenAt) {
         let Some((crack, given)) = crack else {
-            for (_, place) in until.crack_length.iter().chain(&until.arrest) {
+            for (_, place) in stops.crack_length.iter().chain(&stops.arrest) {
                 let message = "this waits for a crack, and the case has none";
                 self.add(Finding::at(*place, message).help("give a `crack`, or stop at a strain or a time"));
             }
             return;
         };
-        let Some((length, place)) = until.crack_length else {
+        let Some((length, place)) = stops.crack_length else {
             return;
         };
         if length <= crack.length {
-            let message = format!(
-                "the crack ({}) is as long as this from the start ({})",
-                nanometres(crack.length),
-                nanometres(length)
-            );
+            let [start, end] = [crack.length, length].map(nanometres);
+            let message =
+                format!("the run would stop at once: the crack is {start} long from the start, and it stops at {end}");
             self.add(
                 Finding::at(place, message)
                     .with(*given, "the crack")
                     .help("stop at a longer crack"),
             );
         }
-        if let Some(SpecimenAt {
-            specimen,
-            length: given,
-            ..
-        }) = specimen
-            && length > specimen.length
+        if let Some((whole, given)) = specimen.length
+            && length > whole
         {
             let message = format!(
                 "no crack can grow to {} in a specimen of {}",
                 nanometres(length),
-                nanometres(specimen.length)
+                nanometres(whole)
             );
             self.add(
                 Finding::at(place, message)
-                    .with(*given, "the specimen")
+                    .with(given, "the specimen")
                     .help("stop at a shorter crack"),
             );
         }

@@ -1,35 +1,39 @@
 //! Size of the specimen, its elements and its crack.
 
-use super::{At, Check, about, material::minimum, nanometres};
+use super::{At, Check, about, nanometres};
 use crate::study::{
-    case::{Crack, Edge, Grips, Lattice, Material, Region, RegionShape, Resolution, Specimen},
+    case::{Crack, Edge, Grips, Lattice, Region, RegionShape, Resolution, Specimen},
     defaults, file,
     finding::{Finding, Place},
     quantity::Length,
     reader::Given,
 };
 
-/// A specimen and where its extents were given.
+/// A specimen, and its extents, which may be known although the whole is not.
 pub struct SpecimenAt {
-    pub specimen: Specimen,
-    pub length: Place,
-    pub width: Place,
+    pub specimen: Option<Specimen>,
+    pub length: Option<At<f64>>,
+    pub width: Option<At<f64>>,
 }
 
 /// Two grips of one element row each, and two rows between them for a crack to run in.
 const FEWEST_ROWS: u32 = 4;
 
 impl Check<'_> {
-    pub fn specimen(
-        &self,
-        given: &Given<file::Specimen>,
-        case: Place,
-        material: Option<&Material>,
-    ) -> Option<SpecimenAt> {
-        let (values, place) = self.section(given, case)?;
-        let lattice = self
-            .choice(&values.lattice, file::Lattice::Triangular)
-            .map(|file::Lattice::Triangular| Lattice::Triangular);
+    /// `spacing` is the distance at which two atoms rest, nm.
+    pub fn specimen(&self, given: &Given<file::Specimen>, case: Place, spacing: Option<f64>) -> SpecimenAt {
+        let Some((values, place)) = self.section(given, case) else {
+            return SpecimenAt {
+                specimen: None,
+                length: None,
+                width: None,
+            };
+        };
+        let lattice = match &values.lattice {
+            Given::Absent => Some(defaults::LATTICE),
+            Given::Wrong(_) => None,
+            Given::Right(file::Lattice::Triangular, _) => Some(Lattice::Triangular),
+        };
         let grips = match &values.grips {
             Given::Absent => Some(defaults::GRIPS),
             Given::Wrong(_) => None,
@@ -39,27 +43,22 @@ impl Check<'_> {
         let block = self.block(&values.block);
         let length = self.size(&values.length, place, "specimen.length");
         let width = self.size(&values.width, place, "specimen.width");
-        let (block, (length, length_at), (width, width_at)) = (block?, length?, width?);
-        if let Some(material) = material {
-            self.holds_sites(
-                (length, length_at),
-                (width, width_at),
-                block,
-                minimum(&material.potential.shape),
-            )?;
+        if let (Some(block), Some(spacing)) = (block, spacing) {
+            self.holds_sites(length, width, block, spacing);
         }
-        let specimen = Specimen {
-            lattice: lattice?,
+        let parts = (|| Some((lattice?, length?.0, width?.0, block?, grips?)))();
+        let specimen = parts.map(|(lattice, length, width, block, grips)| Specimen {
+            lattice,
             length,
             width,
             block,
-            grips: grips?,
-        };
-        Some(SpecimenAt {
+            grips,
+        });
+        SpecimenAt {
             specimen,
-            length: length_at,
-            width: width_at,
-        })
+            length,
+            width,
+        }
     }
 
     fn block(&self, given: &Given<u32>) -> Option<u32> {
@@ -71,39 +70,38 @@ impl Check<'_> {
         self.choice(given, defaults::BLOCK)
     }
 
-    /// The rows and columns of the lattice that fit, by the rule that `mesh` rounds with. `spacing` is the distance at
-    /// which two atoms rest, which a longer cutoff shortens by a percent or so: the mesh itself is the last judge.
-    fn holds_sites(&self, length: At<f64>, width: At<f64>, block: u32, spacing: f64) -> Option<()> {
+    /// The rows and columns of the lattice that fit, by the rule that `mesh` rounds with. A longer cutoff brings the
+    /// atoms a percent or so closer than `spacing`: the mesh itself is the last judge.
+    fn holds_sites(&self, length: Option<At<f64>>, width: Option<At<f64>>, block: u32, spacing: f64) {
         let row = f64::from(block) * 0.75_f64.sqrt() * spacing;
-        let rows = (width.0 / row).round();
-        if rows < f64::from(FEWEST_ROWS) {
+        if let Some((width, place)) = width
+            && (width / row).round() < f64::from(FEWEST_ROWS)
+        {
             let message = format!(
-                "a width of {} holds {rows} element rows ({} each), and {FEWEST_ROWS} are needed: a grip at either side and two between",
-                nanometres(width.0),
+                "a width of {} holds {} element rows ({} each), and {FEWEST_ROWS} are needed: a grip at either side and two between",
+                nanometres(width),
+                (width / row).round(),
                 about(row)
             );
-            let help = format!(
-                "make it {} or more, or take a smaller `specimen.block`",
-                about(f64::from(FEWEST_ROWS) * row)
-            );
-            self.add(Finding::at(width.1, message).help(help));
-            return None;
+            let least = about(f64::from(FEWEST_ROWS) * row);
+            let help = format!("make it {least} or more, or take a smaller `specimen.block`");
+            self.add(Finding::at(place, message).help(help));
         }
         let shortest = f64::from(block + 1) * spacing;
-        if length.0 < shortest / 2.0 {
+        if let Some((length, place)) = length
+            && length < shortest / 2.0
+        {
             let message = format!(
                 "a length of {} holds no site: one element is {} long",
-                nanometres(length.0),
+                nanometres(length),
                 about(shortest)
             );
-            self.add(Finding::at(length.1, message).help(format!("make it {} or more", about(10.0 * shortest))));
-            return None;
+            self.add(Finding::at(place, message).help(format!("make it {} or more", about(10.0 * shortest))));
         }
-        Some(())
     }
 
     /// The outer `None` is a mistake, the inner one the absence of a crack.
-    pub fn crack(&self, given: &Given<file::Crack>, specimen: Option<&SpecimenAt>) -> Option<Option<At<Crack>>> {
+    pub fn crack(&self, given: &Given<file::Crack>, specimen: &SpecimenAt) -> Option<Option<At<Crack>>> {
         let (values, place) = match given {
             Given::Absent => return Some(None),
             Given::Wrong(_) => return None,
@@ -115,28 +113,17 @@ impl Check<'_> {
             Given::Right(file::Edge::Left, _) => Some(Edge::Left),
         };
         let (length, at) = self.size(&values.length, place, "crack.length")?;
-        if let Some(SpecimenAt {
-            specimen,
-            length: given,
-            ..
-        }) = specimen
-            && length >= specimen.length
+        if let Some((whole, given)) = specimen.length
+            && length >= whole
         {
-            let compared = if length > specimen.length {
-                "longer than"
-            } else {
-                "as long as"
-            };
+            let compared = if length > whole { "longer than" } else { "as long as" };
             let message = format!(
                 "the crack ({}) is {compared} the specimen ({})",
                 nanometres(length),
-                nanometres(specimen.length)
+                nanometres(whole)
             );
-            self.add(
-                Finding::at(at, message)
-                    .with(*given, "the specimen")
-                    .help("shorten the crack or lengthen the specimen"),
-            );
+            let help = "shorten the crack or lengthen the specimen";
+            self.add(Finding::at(at, message).with(given, "the specimen").help(help));
             return None;
         }
         Some(Some((Crack { edge: edge?, length }, at)))
@@ -146,7 +133,7 @@ impl Check<'_> {
         &self,
         given: &Given<file::Resolution>,
         case: Place,
-        specimen: Option<&SpecimenAt>,
+        specimen: &SpecimenAt,
     ) -> Option<Resolution> {
         let (values, place) = self.section(given, case)?;
         let element = self.element(&values.element, place, "resolution.element");
@@ -177,12 +164,7 @@ impl Check<'_> {
         Some((element, place))
     }
 
-    fn region(
-        &self,
-        given: &Given<file::Region>,
-        base: Option<At<u32>>,
-        specimen: Option<&SpecimenAt>,
-    ) -> Option<Region> {
+    fn region(&self, given: &Given<file::Region>, base: Option<At<u32>>, specimen: &SpecimenAt) -> Option<Region> {
         let Given::Right(region, place) = given else {
             return None;
         };
@@ -221,23 +203,21 @@ impl Check<'_> {
                     .with(given, "around it")
                     .help("a region may only be finer"),
             );
-            return None;
         }
-        let region = Region {
-            element: element?.0,
-            shape: shape?,
-        };
-        if let Some(SpecimenAt { specimen, .. }) = specimen
-            && !touches(&region.shape, specimen)
+        if let (Some(shape), Some((length, _)), Some((width, _))) = (&shape, specimen.length, specimen.width)
+            && !touches(shape, length, width / 2.0)
         {
-            let [length, half] = [nanometres(specimen.length), nanometres(specimen.width / 2.0)];
+            let [length, half] = [length, width / 2.0].map(nanometres);
             let message = format!(
                 "this region touches nothing of the specimen, where x is 0 to {length} and y is -{half} to {half}"
             );
-            self.add(Finding::at(*place, message).help("x is measured from the left edge, y from the crack plane"));
-            return None;
+            let help = "x is measured from the left edge, y from the crack plane";
+            self.add(Finding::at(*place, message).help(help));
         }
-        Some(region)
+        Some(Region {
+            element: element?.0,
+            shape: shape?,
+        })
     }
 
     fn point(&self, given: &Given<[Given<Length>; 2]>, region: Place, path: &str) -> Option<At<[f64; 2]>> {
@@ -261,8 +241,7 @@ impl Check<'_> {
     }
 }
 
-fn touches(shape: &RegionShape, specimen: &Specimen) -> bool {
-    let (length, half) = (specimen.length, specimen.width / 2.0);
+fn touches(shape: &RegionShape, length: f64, half: f64) -> bool {
     match *shape {
         RegionShape::Band { .. } => true,
         RegionShape::Box { from, to } => from[0] < length && to[0] > 0.0 && from[1] < half && to[1] > -half,
