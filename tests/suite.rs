@@ -4,6 +4,7 @@ mod suite {
     mod cli;
     mod dump;
     mod executor;
+    mod record;
     mod store;
     mod study_files;
     mod tidy;

@@ -1,0 +1,2 @@
+//! Pure functions of snapshots and series.
+pub mod series;

@@ -1,0 +1,2 @@
+//! The time loop.
+pub mod checkpoint;
