@@ -8,7 +8,7 @@ use cgaft::analysis::series::Setting;
 use cgaft::report::{self, CaseResult, Failure, Manifest, Phase, Study};
 use tempfile::TempDir;
 
-use crate::synthetic::{crack_run, setting, torn};
+use super::synthetic::{crack_run, setting, torn};
 
 /// The columns that users rely on.
 const COLUMNS: [(&str, &str); 7] = [
