@@ -1,6 +1,7 @@
 use std::io;
 
 use crate::executor::{ExecutorError, exit};
+use crate::report::ReportError;
 use crate::store::StoreError;
 use crate::study::StudyError;
 
@@ -19,8 +20,8 @@ pub enum CliError {
     Executor(#[from] ExecutorError),
     #[error("cannot write {what}: {source}; check the disk and the permissions of its folder")]
     Output { what: String, source: io::Error },
-    #[error("cannot build the report: {0}")]
-    Report(String),
+    #[error("the report: {0}")]
+    Report(#[from] ReportError),
 }
 
 impl CliError {

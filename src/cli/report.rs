@@ -1,3 +1,5 @@
+mod gather;
+
 use std::fs;
 use std::path::PathBuf;
 
@@ -7,6 +9,7 @@ use serde_json::json;
 use super::CliError;
 use super::survey::{self, Common, Place, Survey};
 use super::terminal::Terminal;
+use crate::report;
 use crate::store::{Program, State};
 
 #[derive(Args, Debug)]
@@ -18,7 +21,7 @@ pub struct Arguments {
 }
 
 /// `cgaft study report FILE`
-pub fn report(arguments: &Arguments) -> Result<u8, CliError> {
+pub fn rebuild_report(arguments: &Arguments) -> Result<u8, CliError> {
     let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
     survey.store.prepare()?;
     let path = rebuild(&survey)?;
@@ -74,12 +77,7 @@ fn fingerprint(survey: &Survey) -> String {
 
 /// Tables, figures and pages from the runs of the store: the one call to `report`.
 fn build(survey: &Survey) -> Result<PathBuf, CliError> {
-    let path = survey.store.root().join("report.html");
-    let words: String = survey
-        .entries
-        .iter()
-        .map(|entry| format!("{}: {}\n", entry.planned.name, entry.state.word()))
-        .collect();
-    fs::write(&path, words).map_err(|error| CliError::Report(error.to_string()))?;
-    Ok(path)
+    let folder = survey.store.root();
+    report::write(&gather::gather(survey), folder)?;
+    Ok(folder.join("report.html"))
 }
