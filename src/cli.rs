@@ -91,7 +91,7 @@ impl Command {
             Command::Study(StudyCommand::Check(arguments)) => check::check(&arguments),
             Command::Study(StudyCommand::Plan(arguments)) => plan::plan(&arguments),
             Command::Study(StudyCommand::Status(arguments)) => status::status(&arguments),
-            Command::Study(StudyCommand::Report(arguments)) => report::report(&arguments),
+            Command::Study(StudyCommand::Report(arguments)) => report::rebuild_report(&arguments),
             Command::Study(StudyCommand::Clean(arguments)) => clean::clean(&arguments),
             Command::Schema => schema::schema(),
             Command::New(arguments) => new::new(&arguments),

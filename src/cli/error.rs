@@ -1,7 +1,6 @@
 use std::io;
 
 use crate::executor::{ExecutorError, exit};
-use crate::record::RecordError;
 use crate::report::ReportError;
 use crate::store::StoreError;
 use crate::study::StudyError;
@@ -21,10 +20,8 @@ pub enum CliError {
     Executor(#[from] ExecutorError),
     #[error("cannot write {what}: {source}; check the disk and the permissions of its folder")]
     Output { what: String, source: io::Error },
-    #[error(transparent)]
+    #[error("the report: {0}")]
     Report(#[from] ReportError),
-    #[error(transparent)]
-    Record(#[from] RecordError),
 }
 
 impl CliError {
@@ -34,7 +31,7 @@ impl CliError {
             CliError::Environment(_) => exit::MISSING_ENVIRONMENT,
             CliError::Executor(ExecutorError::NoSolver | ExecutorError::Start { .. }) => exit::MISSING_ENVIRONMENT,
             CliError::Executor(ExecutorError::Log { .. } | ExecutorError::Store(_)) => exit::OUTPUT_FAILED,
-            CliError::Store(_) | CliError::Output { .. } | CliError::Report(_) | CliError::Record(_) => exit::OUTPUT_FAILED,
+            CliError::Store(_) | CliError::Output { .. } | CliError::Report(_) => exit::OUTPUT_FAILED,
         }
     }
 

@@ -1,14 +1,16 @@
+mod gather;
+
 use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::CliError;
-use super::survey::{self, Common, Entry, Place, Survey};
+use super::survey::{self, Common, Place, Survey};
 use super::terminal::Terminal;
-use crate::store::{self, Program, State};
-use crate::{plan, record, report};
+use crate::report;
+use crate::store::{Program, State};
 
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -19,7 +21,7 @@ pub struct Arguments {
 }
 
 /// `cgaft study report FILE`
-pub fn report(arguments: &Arguments) -> Result<u8, CliError> {
+pub fn rebuild_report(arguments: &Arguments) -> Result<u8, CliError> {
     let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
     survey.store.prepare()?;
     let path = rebuild(&survey)?;
@@ -75,90 +77,7 @@ fn fingerprint(survey: &Survey) -> String {
 
 /// Tables, figures and pages from the runs of the store: the one call to `report`.
 fn build(survey: &Survey) -> Result<PathBuf, CliError> {
-    let cases = survey.entries.iter().map(|entry| result(survey, entry)).collect::<Result<_, _>>()?;
-    let study = report::Study {
-        name: survey.plan.study.clone(),
-        title: survey.plan.title.clone(),
-        question: survey.plan.question.clone(),
-        text: survey.plan.source.clone(),
-        cases,
-    };
-    report::write(&study, survey.store.root())?;
-    Ok(survey.store.root().join("report.html"))
-}
-
-/// All there is of one case: its published run, or what a failed one left behind.
-fn result(survey: &Survey, entry: &Entry) -> Result<report::CaseResult, CliError> {
-    let planned = &entry.planned;
-    let mut result = report::CaseResult {
-        name: planned.name.clone(),
-        id: entry.id.clone(),
-        resolved: plan::write_case(planned),
-        choices: choices(&plan::spelled(&planned.case), ""),
-        manifest: report::Manifest { state: entry.state.word().to_owned(), ..report::Manifest::default() },
-        ..report::CaseResult::default()
-    };
-    let folder = match &entry.state {
-        State::Done(manifest) => {
-            result.manifest = told(manifest);
-            survey.store.run_folder(&entry.id)
-        }
-        State::Failed(failure) => {
-            let reason = failure.meaning.clone();
-            result.failure = Some(report::Failure { reason, log_tail: failure.log_tail.join("\n") });
-            survey.store.partial_folder(&entry.id)
-        }
-        _ => return Ok(result),
-    };
-    let series = folder.join(record::SERIES_FILE);
-    if series.exists() {
-        let (setting, series) = record::read_series(&series)?;
-        (result.setting, result.series) = (Some(setting), series);
-    }
-    let fields = folder.join(record::FIELDS_FILE);
-    if fields.exists() {
-        let (mesh, frames) = record::read_fields(&fields)?;
-        let last = frames.times().len().checked_sub(1);
-        result.last_frame = last.map(|last| frames.frame(last)).transpose()?.map(|frame| (mesh, frame));
-    }
-    Ok(result)
-}
-
-fn told(manifest: &store::Manifest) -> report::Manifest {
-    let outcome = &manifest.outcome;
-    let phase = |phase: &store::Phase| report::Phase {
-        name: phase.name.clone(),
-        calls: phase.calls,
-        seconds: phase.seconds,
-    };
-    report::Manifest {
-        state: "done".to_owned(),
-        version: manifest.program.version.clone(),
-        commit: manifest.program.commit.clone(),
-        host: manifest.host.clone(),
-        ranks: Some(manifest.ranks),
-        threads: Some(manifest.threads),
-        started: Some(manifest.started.to_string()),
-        ended: Some(manifest.ended.to_string()),
-        wall_seconds: Some(manifest.wall_seconds),
-        end_reason: Some(outcome.end_reason.clone()),
-        time_step: Some(outcome.time_step_ps),
-        stability_limit: Some(outcome.stability_limit_ps),
-        steps: Some(outcome.steps),
-        energy_error: outcome.energy_error_relative,
-        cost: outcome.cost.iter().map(phase).collect(),
-    }
-}
-
-/// The leaves of a resolved case as dotted keys with their values.
-fn choices(value: &Value, path: &str) -> Vec<(String, String)> {
-    let Value::Object(map) = value else {
-        let text = value.as_str().map_or_else(|| value.to_string(), str::to_owned);
-        return vec![(path.to_owned(), text)];
-    };
-    let below = |(key, value)| {
-        let path = if path.is_empty() { String::clone(key) } else { format!("{path}.{key}") };
-        choices(value, &path)
-    };
-    map.iter().flat_map(below).collect()
+    let folder = survey.store.root();
+    report::write(&gather::gather(survey), folder)?;
+    Ok(folder.join("report.html"))
 }
