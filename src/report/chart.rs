@@ -170,23 +170,20 @@ impl Chart {
         root: &DrawingArea<DB, plotters::coord::Shift>,
     ) -> Result<i32, DrawingAreaErrorKind<DB::ErrorType>> {
         let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
-        let (line, gap, row) = (34 * FINE, 8 * FINE, 24 * FINE);
+        let (line, gap, row) = (28 * FINE, 7 * FINE, 24 * FINE);
         let (left, right) = (78 * FINE, (WIDTH as i32 - 10) * FINE);
         let (mut x, mut y) = (left, row * 2 / 3);
         for curve in &self.curves {
-            let width = line + gap + root.estimate_text_size(&curve.label, &font)?.0 as i32 + 3 * gap;
+            let width = line + gap + root.estimate_text_size(&curve.label, &font)?.0 as i32 + 2 * gap;
             if x > left && x + width > right {
                 (x, y) = (left, y + row);
             }
             let ends = [(x, y), (x + line, y)];
             match palette::DASHES[curve.style % palette::DASHES.len()] {
                 None => root.draw(&PathElement::new(ends, curve.stroke()))?,
-                Some((dash, pause)) => root.draw(&DashedPathElement::new(
-                    ends.into_iter(),
-                    dash * FINE,
-                    pause * FINE,
-                    curve.stroke(),
-                ))?,
+                Some((dash, pause)) => {
+                    root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?
+                }
             }
             root.draw(&curve.marker((x + line / 2, y)))?;
             root.draw(&Text::new(
