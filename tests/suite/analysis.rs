@@ -12,7 +12,7 @@ use crate::synthetic::{SPACING, breaks, kinked, probes, series, setting, straigh
 
 /// eV/nm^2.5 in MPa sqrt(m).
 const MEGAPASCAL_ROOT_METRE: f64 = 160.217_663_4 * 3.162_277_660_168_379e-5;
-/// 20 ms on an idle core; the rest is for machines on which much else runs. A quadratic method takes minutes.
+/// 35 ms were measured on two cores with five busy processes; a quadratic method takes minutes.
 const LOADED: Duration = Duration::from_millis(250);
 /// Rounding only: bond middles are exact in units of the spacing.
 const EXACT: f64 = 1e-9;
