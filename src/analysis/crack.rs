@@ -15,7 +15,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use super::series::{BondEvent, Setting};
-use notch::Frame;
+use notch::Notch;
 use plaquette::{Bond, Plaquette, PlaquetteMap};
 
 /// Spacings between the points through which the arc length is measured. A crack that goes round single atoms is
@@ -42,7 +42,7 @@ pub struct Tip {
 /// Follows the crack while bonds break and close.
 #[derive(Clone, Debug)]
 pub struct Tracker {
-    frame: Frame,
+    notch: Notch,
     /// Every plaquette with a broken bond, now or before; the mouth is the first. They name each other by index, so
     /// that only a bond that breaks or closes has to be looked up.
     cells: Vec<Cell>,
@@ -69,13 +69,13 @@ const MOUTH: usize = 0;
 impl Tracker {
     /// The crack as cut; `None` where the specimen has none.
     pub fn new(setting: &Setting) -> Option<Tracker> {
-        let frame = Frame {
+        let notch = Notch {
             spacing: setting.spacing,
             left_x: setting.left_x,
             row: setting.crack_row? - 1,
             cut_end: setting.crack_length,
         };
-        let cut = frame.cut_bonds();
+        let cut = notch.cut_bonds();
         let mouth = cut
             .first()?
             .plaquettes()
@@ -83,7 +83,7 @@ impl Tracker {
             .min_by_key(|side| side.half_spacings())?;
         let (cells, index) = (Vec::new(), PlaquetteMap::default());
         let mut tracker = Tracker {
-            frame,
+            notch,
             cells,
             index,
             foremost: BinaryHeap::new(),
@@ -101,14 +101,14 @@ impl Tracker {
         let bond = Bond::of(event);
         if event.broken {
             self.open(bond, event.probe);
-        } else if !self.frame.is_cut(bond) {
+        } else if !self.notch.is_cut(bond) {
             self.close(bond);
         }
     }
 
     /// The foremost tip.
     pub fn tip(&self) -> Tip {
-        let points: Vec<[f64; 2]> = self.main_path().iter().map(|bond| self.frame.place(*bond)).collect();
+        let points: Vec<[f64; 2]> = self.main_path().iter().map(|bond| self.notch.place(*bond)).collect();
         let Some((&last, &first)) = points.last().zip(points.first()) else {
             return Tip::default();
         };
@@ -161,7 +161,7 @@ impl Tracker {
         let nearer = |beyond: usize| self.cells[beyond].distance.checked_add(1) == Some(cell.distance);
         let rank = |beyond: usize| {
             let place = self.cells[beyond].place;
-            ((place.row - self.frame.row).abs(), place)
+            ((place.row - self.notch.row).abs(), place)
         };
         let sides = self.sides(from).filter(|&(_, beyond)| nearer(beyond));
         let (direction, beyond) = sides.min_by_key(|&(_, beyond)| rank(beyond))?;

@@ -145,7 +145,7 @@ impl Growth<'_> {
     /// Keeps an arm and notes the side paths that leave it.
     fn take(&mut self, tree: &Tree, way: Vec<usize>, parent: Option<usize>, rival: Option<u32>) {
         let bonds: Vec<Bond> = way.iter().filter_map(|&cell| tree.entry[cell]).collect();
-        let places: Vec<[f64; 2]> = bonds.iter().map(|&bond| self.tracker.frame.place(bond)).collect();
+        let places: Vec<[f64; 2]> = bonds.iter().map(|&bond| self.tracker.notch.place(bond)).collect();
         let (Some(&first), Some(&start)) = (bonds.first(), places.first()) else {
             return;
         };

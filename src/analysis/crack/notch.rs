@@ -4,7 +4,7 @@ use super::plaquette::Bond;
 
 /// The cut, and where it lies in the lattice.
 #[derive(Clone, Copy, Debug)]
-pub struct Frame {
+pub struct Notch {
     pub spacing: f64,
     pub left_x: f64,
     /// Bonds between lattice rows `row` and `row + 1` are cut.
@@ -12,7 +12,7 @@ pub struct Frame {
     pub cut_end: f64,
 }
 
-impl Frame {
+impl Notch {
     /// The severed bonds, left to right. A bond counts as severed when its middle is left of the end of the cut;
     /// half a spacing more is taken in, so that a crack is found whichever of its ends decides where the cut stops.
     pub fn cut_bonds(&self) -> Vec<Bond> {

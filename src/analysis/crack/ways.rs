@@ -10,7 +10,7 @@ impl Tracker {
     pub(super) fn reach(&mut self, at: usize, distance: u32) {
         let cell = &mut self.cells[at];
         if cell.distance == UNREACHED {
-            let off = (cell.place.row - self.frame.row).abs();
+            let off = (cell.place.row - self.notch.row).abs();
             self.foremost
                 .push((cell.place.half_spacings(), Reverse(off), cell.place, at));
         }
