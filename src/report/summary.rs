@@ -109,7 +109,18 @@ fn differing(cases: &[Analysed]) -> Vec<Row> {
             .map(|case| choice(case.result, key).unwrap_or(ABSENT).to_owned())
             .collect(),
     };
-    let varies = |row: &Row| row.cells.iter().any(|cell| *cell != row.cells[0]);
+    // A case that failed before its choices were known says nothing about them.
+    let known: Vec<bool> = cases.iter().map(|case| !case.result.choices.is_empty()).collect();
+    let varies = |row: &Row| {
+        let mut cells = row
+            .cells
+            .iter()
+            .zip(&known)
+            .filter(|(_, known)| **known)
+            .map(|(cell, _)| cell);
+        let first = cells.next();
+        cells.any(|cell| Some(cell) != first)
+    };
     keys.into_iter().map(row).filter(varies).collect()
 }
 
