@@ -3,8 +3,8 @@
 use std::cmp::Reverse;
 use std::collections::{BinaryHeap, HashMap};
 
-use super::plaquette::{Bond, Plaquette, PlaquetteMap};
-use super::{BONDS_A_SPACING, INTACT, Tracker, UNREACHED};
+use super::plaquette::Bond;
+use super::{BONDS_A_SPACING, Tracker, UNREACHED};
 
 /// One arm of the crack, from where it leaves its parent to its end.
 #[derive(Clone, Debug, PartialEq)]
@@ -50,9 +50,10 @@ pub fn arms(tracker: &Tracker, spur: usize) -> Vec<Arm> {
     growth.arms
 }
 
-/// The shortest ways from the mouth; plaquettes by index, the mouth first, a plaquette after the one before it.
+/// The shortest ways from the mouth. Cells are numbered outwards, so that the mouth is 0 and each comes after the one
+/// before it on its way; `cells` holds their numbers in the tracker.
 struct Tree {
-    cells: Vec<Plaquette>,
+    cells: Vec<usize>,
     /// The bond by which each is reached; `None` for the mouth.
     entry: Vec<Option<Bond>>,
     before: Vec<usize>,
@@ -63,16 +64,23 @@ struct Tree {
 
 impl Tree {
     fn of(tracker: &Tracker) -> Tree {
-        let reached = tracker.cells.iter().filter(|(_, cell)| cell.distance != UNREACHED);
-        let mut order: Vec<(u32, Plaquette)> = reached.map(|(place, cell)| (cell.distance, *place)).collect();
+        let reached = tracker
+            .cells
+            .iter()
+            .enumerate()
+            .filter(|(_, cell)| cell.distance != UNREACHED);
+        let mut order: Vec<_> = reached
+            .map(|(index, cell)| (cell.distance, cell.place, index))
+            .collect();
         order.sort_unstable();
-        let cells: Vec<Plaquette> = order.into_iter().map(|(_, place)| place).collect();
-        let index: PlaquetteMap<usize> = cells.iter().copied().zip(0..).collect();
+        let cells: Vec<usize> = order.into_iter().map(|(_, _, index)| index).collect();
+        let mut place = vec![0; tracker.cells.len()];
+        cells.iter().enumerate().for_each(|(here, &cell)| place[cell] = here);
 
-        let steps: Vec<_> = cells.iter().map(|&place| tracker.step_back(place)).collect();
+        let steps: Vec<_> = cells.iter().map(|&cell| tracker.step_back(cell)).collect();
         let before: Vec<usize> = steps
             .iter()
-            .map(|step| step.map_or(0, |(_, place)| index[&place]))
+            .map(|step| step.map_or(0, |(_, cell)| place[cell]))
             .collect();
         let mut onward = vec![Vec::new(); cells.len()];
         let mut ahead = vec![0; cells.len()];
@@ -91,7 +99,7 @@ impl Tree {
 
     /// From the mouth through the foremost tip and on to the farthest end beyond it.
     fn main_way(&self, tracker: &Tracker) -> Vec<usize> {
-        let tip = tracker.foremost_plaquette();
+        let tip = tracker.foremost_cell();
         let Some(mut cell) = self.cells.iter().position(|&place| place == tip) else {
             return Vec::new();
         };
@@ -137,18 +145,18 @@ impl Growth<'_> {
     /// Keeps an arm and notes the side paths that leave it.
     fn take(&mut self, tree: &Tree, way: Vec<usize>, parent: Option<usize>, rival: Option<u32>) {
         let bonds: Vec<Bond> = way.iter().filter_map(|&cell| tree.entry[cell]).collect();
-        let places: Vec<[f64; 2]> = bonds.iter().map(|&bond| self.tracker.frame.place(bond)).collect();
+        let places: Vec<[f64; 2]> = bonds.iter().map(|&bond| self.tracker.notch.place(bond)).collect();
         let (Some(&first), Some(&start)) = (bonds.first(), places.first()) else {
             return;
         };
         let far = places[(2 * self.spur * BONDS_A_SPACING).min(places.len() - 1)];
-        let grown = bonds.iter().map(|&bond| self.opened(bond)).max();
+        let grown = bonds.iter().map(|&bond| self.tracker.opened(bond)).max();
         self.arms.push(Arm {
             parent,
             born: if parent.is_none() {
                 0
             } else {
-                self.opened(first).max(rival.unwrap_or(0))
+                self.tracker.opened(first).max(rival.unwrap_or(0))
             },
             grown: grown.unwrap_or(0),
             x: start[0],
@@ -157,7 +165,9 @@ impl Growth<'_> {
         });
         for (place, &cell) in way.iter().enumerate() {
             let next = way.get(place + 1);
-            let rival = next.and_then(|&next| tree.entry[next]).map(|bond| self.opened(bond));
+            let rival = next
+                .and_then(|&next| tree.entry[next])
+                .map(|bond| self.tracker.opened(bond));
             for &start in tree.onward[cell].iter().filter(|side| Some(*side) != next) {
                 let length = tree.ahead[start] + 1;
                 if length as usize >= self.spur * BONDS_A_SPACING {
@@ -171,11 +181,6 @@ impl Growth<'_> {
             }
         }
         bonds.iter().for_each(|bond| self.kept.add(bond.midpoint()));
-    }
-
-    fn opened(&self, bond: Bond) -> u32 {
-        let cell = self.tracker.cells.get(&bond.plaquettes()[0]);
-        cell.map_or(INTACT, |cell| cell.opened[usize::from(bond.direction)])
     }
 }
 

@@ -7,7 +7,9 @@
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hash, Hasher};
 
-/// A bond of the triangular lattice, named as in [`crate::analysis::series::BondEvent`].
+use crate::analysis::series::BondEvent;
+
+/// A bond of the triangular lattice, named as in [`BondEvent`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct Bond {
     pub column: i32,
@@ -50,6 +52,15 @@ impl Plaquette {
 }
 
 impl Bond {
+    /// The bond that an event is about.
+    pub fn of(event: &BondEvent) -> Bond {
+        Bond {
+            column: event.column,
+            row: event.row,
+            direction: event.direction,
+        }
+    }
+
     /// The plaquettes on its two sides, the upright one first.
     pub fn plaquettes(self) -> [Plaquette; 2] {
         let Bond { column, row, direction } = self;
