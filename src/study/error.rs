@@ -179,7 +179,9 @@ impl Diagnostic for Shown<'_> {
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
         let place = self.finding.place.filter(|_| self.excerpt)?;
-        let main = LabeledSpan::new_primary_with_span(None, place.range());
+        // Among several labels a caret without a word looks like a slip.
+        let word = (!self.finding.related.is_empty()).then(|| "here".to_owned());
+        let main = LabeledSpan::new_primary_with_span(word, place.range());
         let others = self
             .finding
             .related
