@@ -85,14 +85,14 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         )?;
         drawn.push(svg);
     }
-    let pictures = picture::draw_all(&cases, &folder.join("figures"))?;
+    let gallery = picture::draw_all(&cases, &folder.join("figures"))?;
     let page = page::Page {
         study,
         cases: &cases,
         tables: &tables,
         charts: &charts,
         drawn: &drawn,
-        pictures: &pictures,
+        gallery: &gallery,
     };
     save(&folder.join("report.html"), page.html()?.as_bytes())?;
     save(&folder.join("report.md"), page.markdown()?.as_bytes())

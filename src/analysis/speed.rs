@@ -7,7 +7,7 @@ use super::series::{Series, Setting};
 
 /// The window is the time in which a crack at [`WINDOW_SPEED`] (a share of the Rayleigh speed) runs this many times
 /// the advance by which initiation is told, so that it spans several elements where the mesh is coarse.
-pub const WINDOW_ADVANCES: f64 = 4.0;
+pub const WINDOW_ADVANCES: f64 = 6.0;
 pub const WINDOW_SPEED: f64 = 0.3;
 
 /// Fewer probes than this in a window give no slope worth the name.

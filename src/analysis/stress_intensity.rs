@@ -8,13 +8,13 @@ use super::series::{Series, Setting};
 /// The fit begins this many spacings, and this many element edges, ahead of the tip: nearer, the lattice and the
 /// linear elements do not follow the singular field.
 pub const FROM_SPACINGS: f64 = 4.0;
-pub const FROM_ELEMENTS: f64 = 1.5;
+pub const FROM_ELEMENTS: f64 = 1.0;
 
 /// The fit ends at this share of the crack length, the ligament or the height, whichever is smallest.
-pub const TO_SHARE: f64 = 0.25;
+pub const TO_SHARE: f64 = 1.0 / 3.0;
 
-/// Bins that a fit of two numbers must have.
-pub const LEAST_BINS: usize = 4;
+/// Bins that a fit of two numbers with an error must have.
+pub const LEAST_BINS: usize = 3;
 
 /// Result of the fit `sigma_yy sqrt(2 pi r) = K (1 + c r)` ahead of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -22,8 +22,11 @@ const FAINT: RGBColor = RGBColor(222, 222, 222);
 /// Points of a curve that a page can show; more are thinned out so that every peak stays.
 const MOST_POINTS: usize = 800;
 
-/// Markers along a curve.
-const MARKERS: usize = 7;
+/// Share of the x axis that may be empty on the left.
+const LATE: f64 = 0.4;
+
+/// Distance of the markers along x.
+const MARKER_GAP: i32 = 64 * FINE;
 
 /// Curves over one pair of axes.
 pub struct Chart {
@@ -32,6 +35,8 @@ pub struct Chart {
     pub title: String,
     /// What it shows, for the caption.
     pub caption: String,
+    /// One of many of its kind, which a page may fold away.
+    pub detail: bool,
     /// The table that holds its numbers.
     pub table: &'static str,
     /// Axis labels, with units.
@@ -165,23 +170,20 @@ impl Chart {
         root: &DrawingArea<DB, plotters::coord::Shift>,
     ) -> Result<i32, DrawingAreaErrorKind<DB::ErrorType>> {
         let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
-        let (line, gap, row) = (34 * FINE, 8 * FINE, 24 * FINE);
+        let (line, gap, row) = (28 * FINE, 7 * FINE, 24 * FINE);
         let (left, right) = (78 * FINE, (WIDTH as i32 - 10) * FINE);
         let (mut x, mut y) = (left, row * 2 / 3);
         for curve in &self.curves {
-            let width = line + gap + root.estimate_text_size(&curve.label, &font)?.0 as i32 + 3 * gap;
+            let width = line + gap + root.estimate_text_size(&curve.label, &font)?.0 as i32 + 2 * gap;
             if x > left && x + width > right {
                 (x, y) = (left, y + row);
             }
             let ends = [(x, y), (x + line, y)];
             match palette::DASHES[curve.style % palette::DASHES.len()] {
                 None => root.draw(&PathElement::new(ends, curve.stroke()))?,
-                Some((dash, pause)) => root.draw(&DashedPathElement::new(
-                    ends.into_iter(),
-                    dash * FINE,
-                    pause * FINE,
-                    curve.stroke(),
-                ))?,
+                Some((dash, pause)) => {
+                    root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?
+                }
             }
             root.draw(&curve.marker((x + line / 2, y)))?;
             root.draw(&Text::new(
@@ -207,7 +209,14 @@ impl Chart {
                 (low.min(value), high.max(value))
             })
         };
-        let (left, right) = span(&mut points().map(|point| point.0));
+        let (_, right) = span(&mut points().map(|point| point.0));
+        // Curves that begin late are shown from where they begin.
+        let left = points().map(|point| point.0).fold(right, f64::min);
+        let left = if left > LATE * right {
+            left - 0.1 * (right - left)
+        } else {
+            left.min(0.0)
+        };
         let (low, high) = span(&mut points().map(|point| point.1));
         let right = if right > left { right } else { left + 1.0 };
         let room = if high > low { 0.04 * (high - low) } else { 1.0 };
@@ -237,12 +246,17 @@ impl Curve {
                 }
             };
         }
-        let seen: Vec<_> = self.points.iter().filter(|point| point.1.is_finite()).collect();
-        let stride = (seen.len() / MARKERS).max(1);
+        let seen = self.points.iter().filter(|point| point.1.is_finite());
         // Markers of different curves stand at different places.
-        let first = (stride * (self.style % 4 + 1)) / 5;
-        let places = seen.into_iter().skip(first).step_by(stride).copied();
-        let marks: Vec<_> = places.map(|place| chart.backend_coord(&place)).collect();
+        let start = chart.backend_coord(&(chart.x_range().start, 0.0)).0;
+        let mut next = start + (self.style % 4 + 1) as i32 * MARKER_GAP / 5;
+        let mut marks = Vec::new();
+        for place in seen.map(|point| chart.backend_coord(point)) {
+            if place.0 >= next {
+                marks.push(place);
+                next += MARKER_GAP * ((place.0 - next) / MARKER_GAP + 1);
+            }
+        }
         let area = chart.plotting_area().strip_coord_spec();
         let (left, top) = area.get_base_pixel();
         marks

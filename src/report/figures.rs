@@ -49,6 +49,7 @@ fn over_strain(case: &Analysed, of: impl Fn(&Probe) -> f64) -> Vec<(f64, f64)> {
 fn stress_strain(cases: &[Analysed]) -> Chart {
     Chart {
         id: "stress-strain".to_owned(),
+        detail: false,
         table: "stress_strain",
         title: "Average stress over strain".to_owned(),
         caption: "Average virial stress across the crack plane of everything between the grips, over the nominal \
@@ -73,6 +74,7 @@ fn crack_speed(cases: &[Analysed]) -> Chart {
     };
     Chart {
         id: "crack-speed".to_owned(),
+        detail: false,
         table: "crack_speed",
         title: "Crack speed over strain".to_owned(),
         caption:
@@ -92,6 +94,7 @@ fn tip_position(cases: &[Analysed]) -> Chart {
     };
     Chart {
         id: "tip-position".to_owned(),
+        detail: false,
         table: "crack_speed",
         title: "Tip position over time".to_owned(),
         caption: "Distance of the foremost tip from the left edge, in the reference configuration.".to_owned(),
@@ -110,6 +113,7 @@ fn profile(cases: &[Analysed]) -> Chart {
     };
     Chart {
         id: "stress-profile".to_owned(),
+        detail: false,
         table: "stress_profile",
         title: "Stress ahead of the tip at initiation".to_owned(),
         caption: "Virial stress across the crack plane ahead of the tip, at the last probe before the crack starts. \
@@ -141,6 +145,7 @@ fn imbalance(cases: &[Analysed]) -> Chart {
     };
     Chart {
         id: "energy-imbalance".to_owned(),
+        detail: true,
         table: "stress_strain",
         title: "Energy imbalance over strain".to_owned(),
         caption: "Kinetic and potential energy gained, less the work of the grips and what the cutoff released, over \
@@ -174,6 +179,7 @@ fn energies(index: usize, case: &Analysed) -> Chart {
     };
     Chart {
         id: format!("energy-{index}"),
+        detail: true,
         table: "stress_strain",
         title: format!("Energy ledger of {}", case.name()),
         caption: format!(
@@ -184,7 +190,7 @@ fn energies(index: usize, case: &Analysed) -> Chart {
         x: "nominal strain (%)".to_owned(),
         y: format!("energy ({unit})"),
         curves: vec![
-            curve(0, "work of the grips", &|row| row.work),
+            curve(0, "grip work", &|row| row.work),
             curve(1, "potential", &|row| row.potential),
             curve(2, "kinetic", &|row| row.kinetic - start.kinetic),
             curve(3, "cutoff release", &|row| row.cutoff_release),

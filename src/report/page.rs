@@ -1,7 +1,7 @@
 //! The page: everything a reader needs, in one file that asks nothing of the network.
 
 use super::chart::{Chart, Drawing};
-use super::picture::Picture;
+use super::picture::{Gallery, Picture};
 use super::summary::{self, Group};
 use super::tables::Table;
 use super::{Analysed, ReportError, Study, method, numbers};
@@ -18,7 +18,7 @@ pub struct Page<'a> {
     pub tables: &'a [Table],
     pub charts: &'a [Chart],
     pub drawn: &'a [Drawing],
-    pub pictures: &'a [Picture],
+    pub gallery: &'a Gallery,
 }
 
 impl Page<'_> {
@@ -49,7 +49,8 @@ impl Page<'_> {
             verdict => summary::verdict(self.cases),
             names => list(self.cases, |case| case.name().into()),
             groups => list(&summary::groups(self.cases), group),
-            pictures => list(self.pictures, picture),
+            pictures => list(&self.gallery.pictures, picture),
+            limit => numbers::tick(self.gallery.limit),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
             tables => list(self.tables, table),
             cases => list(self.cases, case),
@@ -68,7 +69,7 @@ fn list<T>(items: &[T], view: impl Fn(&T) -> Value) -> Value {
 
 fn chart((chart, drawing): (&Chart, &Drawing)) -> Value {
     let svg = Value::from_safe_string(drawing.inline.clone());
-    context! { id => &chart.id, title => &chart.title, caption => &chart.caption, table => chart.table, svg }
+    context! { id => &chart.id, detail => chart.detail, title => &chart.title, caption => &chart.caption, table => chart.table, svg }
 }
 
 fn picture(picture: &Picture) -> Value {

@@ -12,7 +12,7 @@ pub const LINES: [[u8; 3]; 7] = [
 ];
 
 /// Length of dash and gap; `None` is a full line. Not in step with the colours, so that 28 pairs differ.
-pub const DASHES: [Option<(i32, i32)>; 4] = [None, Some((7, 4)), Some((2, 4)), Some((14, 4))];
+pub const DASHES: [Option<(i32, i32)>; 4] = [None, Some((9, 4)), Some((4, 3)), Some((16, 4))];
 
 /// Stops of the stress scale from compression to tension: dark at zero, so that crack faces, which carry no stress,
 /// stand out against the white that shows through the crack.

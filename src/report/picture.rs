@@ -4,6 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use plotters::prelude::*;
+use plotters::style::text_anchor::{HPos, Pos, VPos};
 
 use super::chart::prepare_fonts;
 use super::slab::{self, View};
@@ -13,6 +14,7 @@ use crate::record::frames::{FieldMesh, Frame};
 
 /// Pixels.
 const WIDTH: u32 = 1240;
+const EDGE: u32 = 12;
 const LEFT: u32 = 110;
 const RIGHT: u32 = 190;
 const TOP: u32 = 16;
@@ -32,8 +34,14 @@ pub struct Picture {
     pub png: Vec<u8>,
 }
 
+/// Pictures on one colour scale that ends at plus and minus `limit`, GPa.
+pub struct Gallery {
+    pub pictures: Vec<Picture>,
+    pub limit: f64,
+}
+
 /// Draws the last frame of every case that has one.
-pub fn draw_all(cases: &[Analysed], folder: &Path) -> Result<Vec<Picture>, ReportError> {
+pub fn draw_all(cases: &[Analysed], folder: &Path) -> Result<Gallery, ReportError> {
     let frames = cases
         .iter()
         .filter_map(|case| case.result.last_frame.as_ref().map(|(_, frame)| frame));
@@ -63,30 +71,22 @@ pub fn draw_all(cases: &[Analysed], folder: &Path) -> Result<Vec<Picture>, Repor
         let png = fs::read(&path).map_err(|source| ReportError::Write { path, source })?;
         pictures.push(Picture {
             file,
-            title: format!("Slab of {}", case.name()),
-            caption: caption(case, frame, limit),
+            title: case.name().to_owned(),
+            caption: caption(case, frame),
             png,
         });
     }
-    Ok(pictures)
+    Ok(Gallery { pictures, limit })
 }
 
-fn caption(case: &Analysed, frame: &Frame, limit: f64) -> String {
+fn caption(case: &Analysed, frame: &Frame) -> String {
+    let strain = numbers::significant(frame.strain * PERCENT, 3);
+    let time = numbers::significant(frame.time, 3);
     let sizes = case.result.setting.as_ref().map_or(String::new(), |setting| {
-        format!(
-            " {} nodes stand for {} atoms.",
-            numbers::count(setting.nodes),
-            numbers::count(setting.represented_atoms)
-        )
+        let (nodes, atoms) = (numbers::count(setting.nodes), numbers::count(setting.represented_atoms));
+        format!(" {nodes} nodes stand for {atoms} atoms.")
     });
-    format!(
-        "{} at {} % strain ({} ps), displacements to scale.{sizes} Colour is σyy, the same scale in all pictures \
-         (beyond ±{} GPa the end colours); white is empty space.",
-        case.name(),
-        numbers::significant(frame.strain * PERCENT, 3),
-        numbers::significant(frame.time, 4),
-        numbers::tick(limit),
-    )
+    format!("At {strain} % strain, {time} ps.{sizes}")
 }
 
 /// GPa: the largest of the cases' quantiles, rounded up to a simple number.
@@ -123,12 +123,13 @@ impl Drawing<'_> {
     fn draw(&self, path: &Path) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         prepare_fonts();
         let View { x, y } = self.view;
-        let inner = WIDTH - LEFT - RIGHT;
+        let inner = WIDTH - EDGE - LEFT - RIGHT;
         let height = (f64::from(inner) * (y[1] - y[0]) / (x[1] - x[0])).clamp(60.0, TALLEST) as u32;
         let root = BitMapBackend::new(path, (WIDTH, height + TOP + BOTTOM)).into_drawing_area();
         root.fill(&WHITE)?;
         let font = ("sans-serif", TEXT).into_font().color(&INK);
         let mut chart = ChartBuilder::on(&root)
+            .margin_left(EDGE)
             .margin_top(TOP)
             .margin_right(RIGHT)
             .x_label_area_size(BOTTOM)
@@ -166,7 +167,7 @@ impl Drawing<'_> {
     ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
         let font = ("sans-serif", TEXT).into_font().color(&INK);
         let (left, right, top) = ((WIDTH - RIGHT) as i32 + 28, (WIDTH - RIGHT) as i32 + 60, TOP as i32);
-        let (from, to) = (top + 40, top + height);
+        let (from, to) = (top + 52, top + height - TEXT / 2);
         for row in from..to {
             let share = 1.0 - 2.0 * f64::from(row - from) / f64::from((to - from - 1).max(1));
             let [red, green, blue] = palette::stress(share);
@@ -175,15 +176,15 @@ impl Drawing<'_> {
                 RGBColor(red, green, blue),
             ))?;
         }
-        root.draw(&Text::new("σyy (GPa)", (left - 6, top - 4), font.clone()))?;
+        root.draw(&Text::new("σyy (GPa)", (left - 6, top - 2), font.clone()))?;
+        let centred = font.pos(Pos::new(HPos::Left, VPos::Center));
         for share in [-1.0, -0.5, 0.0, 0.5, 1.0] {
             let row = to - 1 - (f64::from(to - from - 1) * (0.5 + 0.5 * share)) as i32;
-            let place = (row - TEXT / 2).clamp(from - 6, to - TEXT);
             root.draw(&PathElement::new([(right, row), (right + 7, row)], INK.stroke_width(2)))?;
             root.draw(&Text::new(
                 numbers::tick(share * self.limit),
-                (right + 14, place),
-                font.clone(),
+                (right + 14, row),
+                centred.clone(),
             ))?;
         }
         Ok(())

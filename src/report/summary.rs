@@ -4,6 +4,9 @@ use super::numbers::{ABSENT, count, duration, signed_percent, significant};
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
 use super::{Analysed, CaseResult};
 
+/// More cases than this are left to the table.
+const MOST_NAMED: usize = 4;
+
 /// Rows that belong together; one cell a case.
 pub struct Group {
     pub title: &'static str,
@@ -51,24 +54,23 @@ pub fn verdict(cases: &[Analysed]) -> String {
             plural(cases.len())
         ),
     }];
-    for (index, reference) in cases
-        .iter()
-        .enumerate()
-        .filter(|(index, case)| case.reference == Some(*index))
-    {
-        let Some(start) = reference.findings.initiation else {
-            continue;
-        };
+    sentences.extend(cases.iter().enumerate().filter_map(|(index, reference)| {
+        let start = reference
+            .findings
+            .initiation
+            .filter(|_| reference.reference == Some(index))?;
         let strain = significant(start.strain * PERCENT, 3);
-        sentences.push(format!(
-            "In {} the crack starts at {strain} % strain.",
-            reference.name()
-        ));
         let others = cases
             .iter()
-            .filter(|case| case.reference == Some(index) && !std::ptr::eq(*case, reference));
-        sentences.extend(others.map(|case| against(case, reference)));
-    }
+            .enumerate()
+            .filter(|(other, case)| *other != index && case.reference == Some(index));
+        let others: Vec<String> = others.map(|(_, case)| against(case, reference)).collect();
+        let mut sentence = format!("In {} the crack starts at {strain} % strain", reference.name());
+        if others.len() <= MOST_NAMED {
+            others.iter().for_each(|other| sentence.push_str(&format!("; {other}")));
+        }
+        Some(format!("{sentence}."))
+    }));
     sentences.join(" ")
 }
 
@@ -76,35 +78,20 @@ fn plural(count: usize) -> &'static str {
     if count == 1 { "case" } else { "cases" }
 }
 
+/// `in coarse 39.3 % later, with 18 times fewer nodes and 22 times faster`
 fn against(case: &Analysed, reference: &Analysed) -> String {
-    let start = match case.difference.initiation_strain {
-        Some(share) => format!("it starts {} later in strain", signed_percent(share)).replace('+', ""),
-        None => "it does not start".to_owned(),
-    };
-    let start = match case.difference.initiation_strain {
-        Some(share) if share < 0.0 => format!(
-            "it starts {} earlier in strain",
-            signed_percent(-share).replace('+', "")
-        ),
-        _ => start,
+    let mut text = match case.difference.initiation_strain {
+        Some(share) if share < 0.0 => format!("in {} {:.1} % earlier", case.name(), -share * PERCENT),
+        Some(share) => format!("in {} {:.1} % later", case.name(), share * PERCENT),
+        None => format!("in {} it does not", case.name()),
     };
     let nodes = |case: &Analysed| case.result.setting.as_ref().map(|setting| setting.nodes as f64);
     let wall = |case: &Analysed| case.result.manifest.wall_seconds.filter(|&wall| wall > 0.0);
     let times = |of: &dyn Fn(&Analysed) -> Option<f64>| Some(significant(of(reference)? / of(case)?, 2));
-    let saved = [
-        times(&nodes).map(|times| format!("{times} times fewer nodes")),
-        times(&wall).map(|times| format!("{times} times less time")),
-    ];
-    let saved: Vec<String> = saved.into_iter().flatten().collect();
-    format!(
-        "In {} {start}, with {}.",
-        case.name(),
-        if saved.is_empty() {
-            "unknown savings".to_owned()
-        } else {
-            saved.join(" and ")
-        }
-    )
+    if let Some((nodes, time)) = times(&nodes).zip(times(&wall)) {
+        text.push_str(&format!(", with {nodes} times fewer nodes and {time} times faster"));
+    }
+    text
 }
 
 /// The choices that are not the same in all cases.
@@ -157,8 +144,8 @@ fn costs(cases: &[Analysed]) -> Vec<Row> {
         }),
         row(cases, "steps", |case| Some(count(manifest(case).steps?))),
         row(cases, "wall time", |case| Some(duration(manifest(case).wall_seconds?))),
-        row(cases, "atom-steps a second", |case| {
-            Some(significant(case.atom_steps_a_second()?, 3))
+        row(cases, "million atom-steps a second", |case| {
+            Some(significant(case.atom_steps_a_second()? / 1e6, 3))
         }),
     ]
 }
@@ -205,7 +192,9 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "crack speed, mean", |case| {
             or_reference(case, misfit(case.difference.speed))
         }),
-        row(cases, "wall time", |case| or_reference(case, times_faster(case, cases))),
+        row(cases, "times less wall time", |case| {
+            or_reference(case, times_faster(case, cases))
+        }),
         row(cases, "energy error (of the work)", |case| {
             Some(significant(case.result.manifest.energy_error?, 2))
         }),
@@ -215,5 +204,5 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
 fn times_faster(case: &Analysed, cases: &[Analysed]) -> Option<String> {
     let reference = cases[case.reference?].result.manifest.wall_seconds?;
     let own = case.result.manifest.wall_seconds.filter(|&wall| wall > 0.0)?;
-    Some(format!("{} times faster", significant(reference / own, 2)))
+    Some(significant(reference / own, 2))
 }

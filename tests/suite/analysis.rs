@@ -12,6 +12,8 @@ use super::synthetic::{SPACING, breaks, kinked, probes, series, setting, straigh
 
 /// eV/nm^2.5 in MPa sqrt(m).
 const MEGAPASCAL_ROOT_METRE: f64 = 160.217_663_4 * 3.162_277_660_168_379e-5;
+/// 20 ms on an idle core; the rest is for machines on which much else runs. A quadratic method takes minutes.
+const LOADED: Duration = Duration::from_millis(250);
 /// Rounding only: bond middles are exact in units of the spacing.
 const EXACT: f64 = 1e-9;
 
@@ -123,7 +125,7 @@ fn the_tip_depends_on_what_is_broken_and_not_on_the_order() {
 }
 
 #[test]
-fn a_hundred_thousand_broken_bonds_take_less_than_a_twentieth_of_a_second() {
+fn a_hundred_thousand_broken_bonds_are_followed_in_no_time() {
     let setting = Setting {
         length: 60_000.0 * SPACING,
         ..setting()
@@ -137,7 +139,8 @@ fn a_hundred_thousand_broken_bonds_take_less_than_a_twentieth_of_a_second() {
         start.elapsed()
     });
     let fastest = fastest.min().unwrap();
-    assert!(fastest < Duration::from_millis(50), "{fastest:?}");
+    eprintln!("a hundred thousand bonds: {fastest:?}");
+    assert!(fastest < LOADED, "{fastest:?}");
 }
 
 /// Runs straight at two spacings a probe from probe 50 on and forks at 150 spacings.

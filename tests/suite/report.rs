@@ -228,7 +228,7 @@ fn the_summary_holds_what_was_put_in() {
     let number = |row: usize, column: &str| summary[row][column].parse::<f64>().unwrap();
     assert_eq!(summary[2]["nodes"], "60000");
     // The crack starts when it is told to; the lasting advance shows a few probes later.
-    assert!((number(2, "initiation_strain") - 0.0180).abs() < 5e-4);
+    assert!((number(2, "initiation_strain") - 0.0180).abs() < 1e-3);
     assert!((number(2, "peak_speed_over_c_r") - 0.36).abs() < 0.02);
     assert!((number(2, "k_griffith_mpa_sqrt_m") - 1.005).abs() < 1e-3);
     assert!((number(2, "atom_steps_per_s") - 60_000.0 * 8_000.0 / 41.0).abs() < 1.0);

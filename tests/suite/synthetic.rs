@@ -99,7 +99,7 @@ pub fn crack_run(setting: &Setting, start: f64, element: f64) -> Series {
     let volume = setting.length * setting.height * setting.thickness;
     let (mut bonds, mut ahead) = (Vec::new(), 0.0_f64);
     let mut way = straight(99.0, 330.0).into_iter();
-    let mut side = kinked(260.0, 60).into_iter();
+    let mut side = kinked(170.0, 60).into_iter();
     let mut rows = Vec::new();
     let mut taken = 0;
     for index in 0..count {
@@ -117,7 +117,7 @@ pub fn crack_run(setting: &Setting, start: f64, element: f64) -> Series {
         let wanted = (2.0 * opened) as usize;
         let fresh: Vec<_> = way.by_ref().take(wanted.saturating_sub(taken)).collect();
         bonds.extend(breaks(&fresh, index as u32));
-        if opened > 165.0 && element < 2.0 {
+        if opened > 75.0 && element < 2.0 {
             bonds.extend(breaks(
                 &side.by_ref().take(fresh.len()).collect::<Vec<_>>(),
                 index as u32,
