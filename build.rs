@@ -1,7 +1,5 @@
 //! Tells the program its commit and features, for the provenance of every run. Outside git there is just no commit.
 
-#![expect(clippy::print_stdout, reason = "cargo reads what a build script prints")]
-
 use std::path::Path;
 use std::process::Command;
 

@@ -101,6 +101,15 @@ fn a_second_ctrl_c_ends_a_solver_that_does_not_listen() {
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(130));
     assert!(start.elapsed() < PATIENCE);
-    let status = place.cgaft(&["study", "status", "slab.yaml", "--json"]).succeeded().json();
-    assert_eq!(of_cases(&status, "state").iter().filter(|state| *state == "partial").count(), 1);
+    let status = place
+        .cgaft(&["study", "status", "slab.yaml", "--json"])
+        .succeeded()
+        .json();
+    assert_eq!(
+        of_cases(&status, "state")
+            .iter()
+            .filter(|state| *state == "partial")
+            .count(),
+        1
+    );
 }
