@@ -9,6 +9,7 @@ mod defaults;
 mod error;
 mod file;
 mod finding;
+mod lines;
 mod named;
 mod overlay;
 mod quantity;

@@ -385,6 +385,9 @@ impl<'a> Entries<'a> {
     /// Note a key that does not exist. If it is clear what was meant, that is read instead, so that one slip of the
     /// finger is one mistake and the value is checked all the same.
     fn mistyped(&mut self, key: &Node, value: &Node, fields: &'static [&'static str]) -> Option<&'static str> {
+        if self.reader.findings.full() {
+            return None;
+        }
         let within = match self.reader.within {
             "" => "a study".into(),
             key => format!("`{key}`"),
