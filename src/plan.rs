@@ -16,7 +16,7 @@ pub use spelling::spelled;
 pub use starter::starter;
 pub use write::write_case;
 
-use crate::study::{Finding, Given, Place, Study, StudyError, Table, case::Case, resolve};
+use crate::study::{Finding, Findings, Given, Place, Study, StudyError, Table, case::Case, resolve};
 use std::collections::HashMap;
 
 /// What is to be computed, in the order of the study file.
@@ -50,7 +50,7 @@ pub struct PlannedCase {
 pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let content = &study.content;
     let findings = &study.findings.clone();
-    let name = study_name(&content.study, findings);
+    let name = study_name(study, findings);
     let mut cases = Vec::new();
     // Names end up as folders, and not every file system tells B from b.
     let mut places: HashMap<String, Place> = HashMap::new();
@@ -99,17 +99,20 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     })
 }
 
-fn study_name(given: &Given<String>, findings: &crate::study::Findings) -> String {
-    match given {
+fn study_name(study: &Study, findings: &Findings) -> String {
+    match &study.content.study {
         Given::Right(text, place) => {
             name::check(text, *place, "study", findings);
             text.clone()
         }
         Given::Wrong(_) => String::new(),
         Given::Absent => {
-            let missing = Finding::at(Place::default(), "the study has no name").help("write `study: my-study`");
+            let missing = Finding::at(study.start, "the study has no name").help("write `study: my-study`");
             findings.add(missing);
             String::new()
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

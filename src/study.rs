@@ -9,6 +9,7 @@ mod defaults;
 mod error;
 mod file;
 mod finding;
+mod lines;
 mod named;
 mod overlay;
 mod quantity;
@@ -41,6 +42,8 @@ const FORMAT: u32 = 1;
 pub struct Study {
     pub(crate) file: String,
     pub(crate) text: Arc<str>,
+    /// Where the study begins, after all comments: the place of what is missing from it.
+    pub(crate) start: Place,
     pub(crate) content: StudyFile,
     pub(crate) findings: Findings,
 }
@@ -58,13 +61,17 @@ pub fn read_text(file: &str, text: &str) -> Result<Study, StudyError> {
     let fail = |finding: Finding| StudyError::new(file, Arc::clone(&text), vec![finding]);
     let root = tree::parse(&text, &findings).map_err(fail)?;
     check_root(&root).map_err(fail)?;
-    let content = match read_tree(&root, &findings) {
+    let mut content = match read_tree(&root, &findings) {
         Given::Right(content, _) => content,
         _ => StudyFile::default(),
     };
+    if let Given::Absent = content.base {
+        content.base = Given::Right(CaseFile::default(), root.place);
+    }
     Ok(Study {
         file: file.into(),
         text,
+        start: root.place,
         content,
         findings,
     })

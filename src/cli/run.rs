@@ -10,7 +10,7 @@ use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
 use super::{CliError, plan, report};
 use crate::executor::share::{Share, share};
-use crate::executor::{Ending, Job, Settings, Stop, exit, launch};
+use crate::executor::{self, Ending, Job, Settings, Stop, exit, launch};
 use crate::plan as planning;
 use crate::store::State;
 
@@ -207,13 +207,8 @@ fn compute(survey: &Survey, prepared: &Prepared, stop: &Stop, terminal: Terminal
     };
     survey.store.prepare()?;
     let mut watcher = progress::watcher(terminal, &survey.store);
-    Ok(crate::executor::run(
-        &survey.store,
-        &prepared.jobs,
-        &settings,
-        stop,
-        watcher.as_mut(),
-    )?)
+    let work = || executor::run(&survey.store, &prepared.jobs, &settings, stop, watcher.as_mut());
+    Ok(stop.with_care(work)?)
 }
 
 /// Two names of one case share its run; a renamed case finds the run it had.

@@ -15,9 +15,13 @@ pub fn check(name: &str, place: Place, what: &str, findings: &Findings) {
         "`{}` cannot be the name of a {what}: it becomes the name of a folder",
         shortened(name)
     );
-    let mut better = part(name);
-    better.truncate(LONGEST_TYPED);
-    let example = if better.is_empty() { format!("{what}-1") } else { better };
+    let replaced: String = name
+        .chars()
+        .map(|c| if good(c) { c } else { '-' })
+        .take(LONGEST_TYPED)
+        .collect();
+    let better = replaced.trim_matches(['-', '.', '_']);
+    let example = if better.is_empty() { "A" } else { better };
     findings
         .add(Finding::at(place, message).help(format!("use letters, digits, `-`, `_` and `.`, such as `{example}`")));
 }

@@ -1,7 +1,10 @@
 //! The answer to a study file that is wrong: every mistake with its place, an excerpt and what to do.
 
-use super::finding::{Finding, Place};
-use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, NamedSource, SourceCode};
+use super::{
+    finding::{Finding, MOST_FINDINGS},
+    lines::Lines,
+};
+use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, LabeledSpan, SourceCode};
 use serde::Serialize;
 use std::{fmt, sync::Arc};
 
@@ -9,8 +12,7 @@ use std::{fmt, sync::Arc};
 #[derive(Clone, thiserror::Error)]
 #[error("{}", self.render(false))]
 pub struct StudyError {
-    file: String,
-    text: Arc<str>,
+    lines: Lines,
     findings: Vec<Finding>,
 }
 
@@ -36,8 +38,7 @@ const WIDTH: usize = 110;
 impl StudyError {
     pub(super) fn new(file: &str, text: Arc<str>, findings: Vec<Finding>) -> Self {
         Self {
-            file: file.into(),
-            text,
+            lines: Lines::new(file, text),
             findings,
         }
     }
@@ -52,14 +53,11 @@ impl StudyError {
         let handler = GraphicalReportHandler::new_themed(theme)
             .with_width(WIDTH)
             .with_links(false);
-        let source = NamedSource::new(&self.file, Arc::clone(&self.text));
         let mut report = String::new();
         for finding in self.findings.iter().take(MOST_SHOWN) {
             let shown = Shown {
                 finding,
-                source: &source,
-                excerpt: self.excerpts(finding),
-                file: &self.file,
+                lines: &self.lines,
             };
             // Writing into a String does not fail; a report that cannot be laid out still says what is wrong.
             if handler.render_report(&mut report, &shown).is_err() {
@@ -71,15 +69,14 @@ impl StudyError {
     }
 
     fn summary(&self) -> String {
-        let hidden = self.findings.len().saturating_sub(MOST_SHOWN);
-        let more = if hidden > 0 {
-            format!(" ({hidden} more are not shown)")
-        } else {
-            String::new()
-        };
+        let file = self.lines.file();
         match self.findings.len() {
-            1 => format!("1 mistake in {}; nothing was started", self.file),
-            number => format!("{number} mistakes in {}{more}; nothing was started", self.file),
+            1 => format!("1 mistake in {file}; nothing was started"),
+            number @ ..=MOST_SHOWN => format!("{number} mistakes in {file}; nothing was started"),
+            number => {
+                let more = if number < MOST_FINDINGS { "" } else { " or more" };
+                format!("{number}{more} mistakes in {file}, of which {MOST_SHOWN} are shown; nothing was started")
+            }
         }
     }
 
@@ -88,25 +85,14 @@ impl StudyError {
     }
 
     fn mistake(&self, finding: &Finding) -> Mistake {
-        let position = finding.place.map(|place| position(&self.text, place));
+        let position = finding.place.map(|place| self.lines.position(place));
         Mistake {
-            file: self.file.clone(),
+            file: self.lines.file().into(),
             line: position.map(|(line, _)| line),
             column: position.map(|(_, column)| column),
             message: finding.message.clone(),
             help: help(finding),
         }
-    }
-
-    /// Whether all lines to be shown are short enough.
-    fn excerpts(&self, finding: &Finding) -> bool {
-        let short = |place: Place| {
-            let (before, after) = self.text.split_at(place.start);
-            let start = before.rfind('\n').map_or(0, |at| at + 1);
-            let end = place.start + after.find('\n').unwrap_or(after.len());
-            end - start <= LONGEST_EXCERPT
-        };
-        finding.place.is_some_and(short) && finding.related.iter().all(|(place, _)| short(*place))
     }
 }
 
@@ -114,13 +100,6 @@ impl fmt::Debug for StudyError {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.debug_list().entries(self.mistakes()).finish()
     }
-}
-
-/// Line and column of the beginning of a place, in characters, from 1.
-fn position(text: &str, place: Place) -> (usize, usize) {
-    let before = &text[..place.start];
-    let start = before.rfind('\n').map_or(0, |at| at + 1);
-    (before.matches('\n').count() + 1, before[start..].chars().count() + 1)
 }
 
 /// The help of a finding and the cases it concerns.
@@ -142,9 +121,19 @@ fn help(finding: &Finding) -> Option<String> {
 /// One finding as miette lays it out.
 struct Shown<'a> {
     finding: &'a Finding,
-    source: &'a NamedSource<Arc<str>>,
-    excerpt: bool,
-    file: &'a str,
+    lines: &'a Lines,
+}
+
+impl Shown<'_> {
+    /// Whether there is a place to show, and all its lines are short enough.
+    fn excerpt(&self) -> bool {
+        let mut places = self
+            .finding
+            .place
+            .into_iter()
+            .chain(self.finding.related.iter().map(|(place, _)| *place));
+        self.finding.place.is_some() && places.all(|place| self.lines.longest(place) <= LONGEST_EXCERPT)
+    }
 }
 
 impl std::error::Error for Shown<'_> {}
@@ -157,13 +146,11 @@ impl fmt::Debug for Shown<'_> {
 
 impl fmt::Display for Shown<'_> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        match self.finding.place {
-            Some(place) if !self.excerpt => {
-                let (line, column) = position(self.source.inner(), place);
-                write!(f, "{}:{line}:{column}: {}", self.file, self.finding.message)
-            }
-            Some(_) => f.write_str(&self.finding.message),
-            None => write!(f, "{}: {}", self.file, self.finding.message),
+        let message = &self.finding.message;
+        match self.finding.place.map(|place| self.lines.position(place)) {
+            Some((line, column)) if !self.excerpt() => write!(f, "{}:{line}:{column}: {message}", self.lines.file()),
+            Some(_) => f.write_str(message),
+            None => write!(f, "{}: {message}", self.lines.file()),
         }
     }
 }
@@ -174,17 +161,16 @@ impl Diagnostic for Shown<'_> {
     }
 
     fn source_code(&self) -> Option<&dyn SourceCode> {
-        self.excerpt.then_some(self.source as &dyn SourceCode)
+        self.excerpt().then_some(self.lines as &dyn SourceCode)
     }
 
     fn labels(&self) -> Option<Box<dyn Iterator<Item = LabeledSpan> + '_>> {
-        let place = self.finding.place.filter(|_| self.excerpt)?;
-        let main = LabeledSpan::new_primary_with_span(None, place.range());
-        let others = self
-            .finding
-            .related
-            .iter()
-            .map(|(place, what)| LabeledSpan::new_with_span(Some(what.clone()), place.range()));
+        let place = self.finding.place.filter(|_| self.excerpt())?;
+        // Among several labels a caret without a word looks like a slip.
+        let word = (!self.finding.related.is_empty()).then(|| "here".to_owned());
+        let main = LabeledSpan::new_primary_with_span(word, place.range());
+        let related = self.finding.related.iter();
+        let others = related.map(|(place, what)| LabeledSpan::new_with_span(Some(what.clone()), place.range()));
         Some(Box::new(std::iter::once(main).chain(others)))
     }
 }

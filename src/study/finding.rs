@@ -74,15 +74,24 @@ struct Collection {
     index: HashMap<(Option<Place>, String), usize>,
 }
 
+/// Mistakes that are kept: nobody reads more, and a wrong file of a megabyte is answered at once.
+pub const MOST_FINDINGS: usize = 1000;
+
 impl Findings {
+    /// Whether there are so many already that more would not be kept.
+    pub fn full(&self) -> bool {
+        self.0.borrow().list.len() >= MOST_FINDINGS
+    }
+
     pub fn add(&self, finding: Finding) {
         let Collection { list, index } = &mut *self.0.borrow_mut();
         let at = *index
             .entry((finding.place, finding.message.clone()))
             .or_insert(list.len());
-        match list.get_mut(at) {
-            Some(known) => known.cases.extend(finding.cases),
-            None => list.push(finding),
+        if let Some(known) = list.get_mut(at) {
+            known.cases.extend(finding.cases);
+        } else if list.len() < MOST_FINDINGS {
+            list.push(finding);
         }
     }
 

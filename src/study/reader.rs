@@ -186,18 +186,22 @@ impl<'de> Deserializer<'de> for Reader<'de> {
                 reader: self,
                 items: items.iter(),
             }),
-            _ => Err(self.unexpected(&"a list in brackets, [ ]")),
+            _ => Err(self
+                .unexpected(&"a list")
+                .help("put brackets around it, or `- ` before every item")),
         }
     }
 
     fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Fault> {
         match &self.node.value {
             Value::List(items) if items.len() == length => self.deserialize_seq(visitor),
-            Value::List(items) => Err(Fault::new(
-                self.node.place,
-                format!("expected a list of {length} values, found {}", items.len()),
-            )),
-            _ => Err(self.unexpected(&format!("a list of {length} values").as_str())),
+            Value::List(items) => {
+                let message = format!("expected a list of {length} values, found {}", items.len());
+                Err(Fault::new(self.node.place, message).help("write [x, y]"))
+            }
+            _ => Err(self
+                .unexpected(&format!("a list of {length} values").as_str())
+                .help("write [x, y]")),
         }
     }
 
@@ -218,7 +222,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         match &self.node.value {
             Value::Null => visitor.visit_map(Entries::new(self, &[], None)),
             Value::Map(_) => self.deserialize_any(visitor),
-            _ => Err(self.unexpected(&"a map of names and values")),
+            _ => Err(self.unexpected(&"a map of names and values").help(MAP)),
         }
     }
 
@@ -231,7 +235,11 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         let entries = match &self.node.value {
             Value::Null => [].as_slice(),
             Value::Map(entries) => entries,
-            _ => return Err(self.unexpected(&format!("a map with {}", alternatives(fields)).as_str())),
+            _ => {
+                return Err(self
+                    .unexpected(&format!("a map with {}", alternatives(fields)).as_str())
+                    .help(MAP));
+            }
         };
         visitor.visit_map(Entries::new(self, entries, Some(fields)))
     }
@@ -254,7 +262,11 @@ impl<'de> Deserializer<'de> for Reader<'de> {
                 );
                 return Err(Fault::new(entries[1].0.place, message).help("keep one of them"));
             }
-            _ => return Err(self.unexpected(&alternatives(&named(variants)).as_str())),
+            _ => {
+                return Err(self
+                    .unexpected(&alternatives(&named(variants)).as_str())
+                    .help("write one of them"));
+            }
         };
         let name = key.text();
         if named(variants).contains(&name) {
@@ -291,6 +303,8 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         ignored_any
     }
 }
+
+const MAP: &str = "write pairs such as `key: value`, in braces or indented below";
 
 /// Those variants that a person can type.
 fn named(variants: &[&'static str]) -> Vec<&'static str> {
@@ -370,16 +384,23 @@ impl<'a> Entries<'a> {
 
     /// Note a key that does not exist. If it is clear what was meant, that is read instead, so that one slip of the
     /// finger is one mistake and the value is checked all the same.
-    fn mistyped(&mut self, key: &Node, fields: &'static [&'static str]) -> Option<&'static str> {
+    fn mistyped(&mut self, key: &Node, value: &Node, fields: &'static [&'static str]) -> Option<&'static str> {
+        if self.reader.findings.full() {
+            return None;
+        }
         let within = match self.reader.within {
             "" => "a study".into(),
             key => format!("`{key}`"),
         };
         let message = format!("`{}` is not a key of {within}", shortened(key.text()));
-        self.reader
-            .findings
-            .add(Finding::at(key.place, message).help(suggestion(key.text(), fields)));
-        let meant = nearest(key.text(), fields)?;
+        let meant = nearest(key.text(), fields);
+        let help = match value.value {
+            // `{title: Atoms, and elements}` is a title and a key without a value.
+            Value::Null if meant.is_none() => "a text with a comma in it must stand in quotes".into(),
+            _ => suggestion(key.text(), fields),
+        };
+        self.reader.findings.add(Finding::at(key.place, message).help(help));
+        let meant = meant?;
         if self.reader.node.get(meant).is_some() || self.meant.contains(&meant) {
             return None;
         }
@@ -397,7 +418,7 @@ impl<'de> de::MapAccess<'de> for Entries<'de> {
                 self.value = Some((key.text(), value));
                 return seed.deserialize(self.reader.at(key)).map(Some);
             };
-            if let Some(meant) = self.mistyped(key, fields) {
+            if let Some(meant) = self.mistyped(key, value, fields) {
                 self.value = Some((meant, value));
                 let name: de::value::StrDeserializer<Fault> = meant.into_deserializer();
                 return seed.deserialize(name).map(Some);

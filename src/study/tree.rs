@@ -60,7 +60,12 @@ impl Node {
 
 /// Read a text of one YAML document. What is wrong with single keys goes to `findings`; what cannot be read at all comes back.
 pub fn parse(text: &str, findings: &Findings) -> Result<Node, Finding> {
-    let settings: Options = options! { emit_comments: false, disallow_directives: true };
+    let settings: Options = options! {
+        emit_comments: false,
+        disallow_directives: true,
+        flow_nesting_limit: DEEPEST,
+        block_nesting_limit: DEEPEST,
+    };
     let mut builder = Builder {
         text,
         findings,
@@ -96,7 +101,16 @@ struct Open {
 
 enum Content {
     List(Vec<Node>),
-    Map(Vec<(Node, Node)>, Option<Node>),
+    Map(OpenMap),
+}
+
+#[derive(Default)]
+struct OpenMap {
+    entries: Vec<(Node, Node)>,
+    /// Where each key stands.
+    names: HashMap<String, Place>,
+    /// A key that waits for its value.
+    key: Option<Node>,
 }
 
 impl Builder<'_> {
@@ -132,7 +146,7 @@ impl Builder<'_> {
                 self.begin(Content::List(Vec::new()), anchor, tag.is_some(), place)?
             }
             Event::MappingStart(_, anchor, tag) => {
-                self.begin(Content::Map(Vec::new(), None), anchor, tag.is_some(), place)?
+                self.begin(Content::Map(OpenMap::default()), anchor, tag.is_some(), place)?
             }
             Event::SequenceEnd | Event::MappingEnd => self.end()?,
             _ => (),
@@ -148,11 +162,11 @@ impl Builder<'_> {
         }
         let key = match self.open.last() {
             Some(Open {
-                content: Content::Map(_, Some(key)),
+                content: Content::Map(OpenMap { key: Some(key), .. }),
                 ..
             }) => key.place,
             Some(Open {
-                content: Content::Map(_, None),
+                content: Content::Map(OpenMap { key: None, .. }),
                 ..
             }) => return Err(not_a_key(place)),
             _ => first_character(self.text, place),
@@ -171,7 +185,7 @@ impl Builder<'_> {
         };
         let value = match content {
             Content::List(items) => Value::List(items),
-            Content::Map(entries, _) => Value::Map(entries),
+            Content::Map(map) => Value::Map(map.entries),
         };
         self.put(Node { place, value }, anchor)
     }
@@ -184,25 +198,15 @@ impl Builder<'_> {
         match self.open.last_mut().map(|open| &mut open.content) {
             None => self.root = Some(node),
             Some(Content::List(items)) => items.push(node),
-            Some(Content::Map(entries, key)) => match key.take() {
-                Some(name) => match entries.iter().find(|(other, _)| other.text() == name.text()) {
-                    Some((first, _)) => self.findings.add(
-                        Finding::at(name.place, format!("`{}` stands twice in the same map", name.text()))
-                            .with(first.place, "here first")
-                            .help("keep one of the two"),
-                    ),
-                    None => entries.push((name, node)),
-                },
-                None if node.text() == "<<" => {
-                    return Err(Finding::at(node.place, "`<<` (a merge key) has no meaning in a study")
-                        .help("put what cases share into `base`: every case starts from it"));
-                }
-                None => match node.value {
-                    Value::Word(_) => *key = Some(node),
-                    Value::Null => {
-                        return Err(Finding::at(node.place, "this key has no name").help("write `name: value`"));
+            Some(Content::Map(map)) => match map.key.take() {
+                None => map.key = Some(as_key(node)?),
+                Some(key) => match map.names.insert(key.text().into(), key.place) {
+                    None => map.entries.push((key, node)),
+                    Some(first) => {
+                        let message = format!("`{}` stands twice in the same map", key.text());
+                        let finding = Finding::at(key.place, message).with(first, "here first");
+                        self.findings.add(finding.help("keep one of the two"));
                     }
-                    _ => return Err(not_a_key(node.place)),
                 },
             },
         }
@@ -219,6 +223,18 @@ impl Builder<'_> {
             format!("the file holds more than {MOST_NODES} values, aliases written out"),
         )
         .help("describe many cases by a sweep over lists or ranges"))
+    }
+}
+
+fn as_key(node: Node) -> Result<Node, Finding> {
+    match &node.value {
+        Value::Word(text) if text == "<<" => {
+            Err(Finding::at(node.place, "`<<` (a merge key) has no meaning in a study")
+                .help("put what cases share into `base`: every case starts from it"))
+        }
+        Value::Word(_) => Ok(node),
+        Value::Null => Err(Finding::at(node.place, "this key has no name").help("write `name: value`")),
+        Value::List(_) | Value::Map(_) => Err(not_a_key(node.place)),
     }
 }
 
@@ -274,6 +290,9 @@ fn unreadable(text: &str, error: &ScanError) -> Finding {
         "check indentation, brackets, quotes and the blank after each colon up to this place"
     };
     let place = first_character(text, Place { start, end: start });
+    if *error.kind() == ErrorKind::RecursionLimitExceeded {
+        return too_deep(place);
+    }
     if *error.kind() == ErrorKind::UnknownAnchor {
         let message = "this alias (`*name`) stands for nothing that came before it";
         return Finding::at(place, message).help("mark what it repeats by `&name`, or write the value out");

@@ -54,8 +54,9 @@ fn a_gigapascal_is_a_joule_over_a_volume() {
 
 #[test]
 fn the_constants_agree_with_each_other() {
-    // Codata 2022 to ten digits: u, Boltzmann's constant, eV/nm^3.
-    assert!((U_IN_EV_PS2_PER_NM2 - 0.010_364_269_67).abs() < 1e-12);
+    // CODATA 2022 gives the energy of 1 u apart, 931.494 103 72(29) MeV; the speed of light is 299792.458 nm/ps.
+    let by_energy = 931.494_103_72e6 / 299_792.458_f64.powi(2);
+    assert!((U_IN_EV_PS2_PER_NM2 / by_energy - 1.0).abs() < 1e-9);
     assert!((BOLTZMANN_EV_PER_K - 8.617_333_262e-5).abs() < 1e-14);
     assert!((EV_PER_NM3_IN_GPA - 0.160_217_663_4).abs() < 1e-15);
     let by_hand = EV_PER_NM3_IN_GPA * 1000.0 * 1e-9_f64.sqrt();

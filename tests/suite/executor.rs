@@ -211,12 +211,12 @@ fn a_failed_case_is_tried_again_and_a_done_one_is_not() {
         case_text: "case: A\n".to_owned(),
         ..job("A", "well")
     };
-    let (endings, _) = run(&store, &[repaired.clone()], 1);
+    let (endings, _) = run(&store, std::slice::from_ref(&repaired), 1);
     let Ending::Done(manifest) = &endings[0] else {
         panic!("{endings:?}")
     };
     assert_eq!(manifest.attempts, 2);
-    let (endings, _) = run(&store, &[repaired.clone()], 1);
+    let (endings, _) = run(&store, std::slice::from_ref(&repaired), 1);
     assert_eq!(words(&endings), ["elsewhere"]);
     let (endings, _) = run(
         &store,

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Stands in for cgaft-solve: takes its arguments, speaks its progress, leaves its files, computes nothing.
 # A case whose file holds `fake: fail` (or the text in FAKE_FAIL) fails; `fake: slow` (FAKE_SLOW) waits to be stopped;
-# `fake: pause` (FAKE_PAUSE) takes a moment; `fake: empty` leaves no result.
+# `fake: stubborn` (FAKE_STUBBORN) does not listen; `fake: pause` (FAKE_PAUSE) takes a moment; `fake: empty` leaves no result.
 case_file=$1
 shift
 while [ $# -gt 0 ]; do
@@ -30,6 +30,7 @@ if holds "${FAKE_SLOW:-fake: slow}"; then
     echo "checkpoint" >"$into/checkpoint.h5"
     exit 130
 fi
+holds "${FAKE_STUBBORN:-fake: stubborn}" && exec sleep 60
 holds "${FAKE_PAUSE:-fake: pause}" && sleep 0.5
 holds "fake: empty" && exit 0
 echo "series" >"$into/series.h5"

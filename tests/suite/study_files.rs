@@ -98,3 +98,227 @@ fn every_mistake_says_what_to_do_next() {
         }
     }
 }
+
+#[test]
+fn every_good_file_gives_cases() {
+    let files = yaml_files("tests/study_files/good");
+    assert!(!files.is_empty());
+    for path in files {
+        let plan = check(&path).unwrap_or_else(|error| panic!("{}\n{error}", path.display()));
+        assert!(!plan.cases.is_empty());
+    }
+}
+
+#[test]
+fn every_study_fits_the_schema() {
+    let validator = jsonschema::draft7::new(&study::schema()).unwrap();
+    let files = yaml_files("studies")
+        .into_iter()
+        .chain(yaml_files("tests/study_files/good"));
+    let texts = files.map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap()));
+    for (name, text) in texts.chain([("starter".to_owned(), starter("fresh"))]) {
+        let options = serde_saphyr::options! { strict_booleans: true };
+        let value: serde_json::Value = serde_saphyr::from_str_with_options(&text, options).unwrap();
+        let errors: Vec<String> = validator
+            .iter_errors(&value)
+            .map(|error| format!("{}: {error}", error.instance_path()))
+            .collect();
+        assert!(errors.is_empty(), "{name}: {errors:#?}");
+    }
+}
+
+/// Most slips can be seen by an editor that knows the schema; what needs arithmetic cannot.
+#[test]
+fn the_schema_refuses_wrong_keys_variants_and_bare_numbers() {
+    let validator = jsonschema::draft7::new(&study::schema()).unwrap();
+    for name in [
+        "unknown_key",
+        "unknown_variant",
+        "unknown_word",
+        "unit_missing",
+        "not_a_number",
+        "whole_number_expected",
+    ] {
+        let path = format!("{}/tests/study_files/bad/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
+        let value: serde_json::Value = serde_saphyr::from_str(&fs::read_to_string(path).unwrap()).unwrap();
+        assert!(!validator.is_valid(&value), "{name}");
+    }
+}
+
+/// `CGAFT_WRITE_SCHEMA=1 cargo test` writes it anew.
+#[test]
+fn the_schema_file_is_what_the_types_say() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/study.schema.json");
+    let text = serde_json::to_string_pretty(&study::schema()).unwrap() + "\n";
+    if std::env::var_os("CGAFT_WRITE_SCHEMA").is_some() {
+        fs::write(&path, &text).unwrap();
+    }
+    assert!(
+        fs::read_to_string(&path).unwrap() == text,
+        "stale: run the tests with CGAFT_WRITE_SCHEMA=1"
+    );
+}
+
+#[test]
+fn every_study_in_the_folder_is_shipped_and_names_its_schema() {
+    let files = yaml_files("studies");
+    let names: Vec<&str> = files
+        .iter()
+        .map(|path| path.file_name().unwrap().to_str().unwrap())
+        .collect();
+    let mut shipped = study::SHIPPED.map(|(name, _)| name);
+    shipped.sort();
+    assert_eq!(names, shipped);
+    for path in files {
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(
+            text.starts_with("# yaml-language-server: $schema=../schemas/study.schema.json\n"),
+            "{}",
+            path.display()
+        );
+        assert!(check(&path).unwrap().question.is_some());
+    }
+}
+
+#[test]
+fn a_shipped_study_is_found_by_its_name_alone() {
+    let plan = plan(&study::read("quickstart.yaml").unwrap()).unwrap();
+    assert_eq!(plan.study, "quickstart");
+    assert_eq!(
+        plan.cases.iter().map(|case| case.name.as_str()).collect::<Vec<_>>(),
+        ["coarse", "mixed", "atoms"]
+    );
+    let message = study::read("elsewhere/quickstart.yaml").unwrap_err().to_string();
+    assert!(message.contains("no such file"), "{message}");
+}
+
+#[test]
+fn the_starter_study_is_right_as_it_is() {
+    let plan = check_text(&starter("crack-speed")).unwrap();
+    assert_eq!(plan.study, "crack-speed");
+    assert_eq!(plan.cases.len(), 2);
+}
+
+#[test]
+fn a_written_case_reads_back_to_the_same_bits() {
+    let folder = tempfile::tempdir().unwrap();
+    let plans = yaml_files("studies")
+        .into_iter()
+        .chain(yaml_files("tests/study_files/good"))
+        .map(|path| check(&path).unwrap());
+    for planned in plans.flat_map(|plan| plan.cases) {
+        let path = folder.path().join("case.yaml");
+        fs::write(&path, write_case(&planned)).unwrap();
+        let (name, case) = study::read_case(path.to_str().unwrap()).unwrap();
+        assert_eq!((&name, &case), (&planned.name, &planned.case));
+        // It is a study of its own, so that one case can be repeated from its folder alone.
+        let again = check(&path).unwrap();
+        assert_eq!(again.cases, [planned]);
+    }
+}
+
+/// Time in which any answer must come, on a busy machine too.
+const PROMPT: Duration = Duration::from_secs(2);
+
+/// What is reported of bytes that are no study at all.
+fn answer(bytes: &[u8]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.yaml");
+    fs::write(&path, bytes).unwrap();
+    let start = Instant::now();
+    let error = check(&path).unwrap_err();
+    let text = error.render(false);
+    assert!(start.elapsed() < PROMPT, "{:?}", start.elapsed());
+    assert!(error.mistakes().iter().all(|mistake| mistake.help.is_some()), "{text}");
+    text
+}
+
+#[test]
+fn a_file_that_is_no_study_gets_a_clear_answer() {
+    assert!(answer(b"").contains("the file is empty"));
+    assert!(answer(b"# nothing here\n\n").contains("the file is empty"));
+    assert!(answer(b"study: \xff\xfe\n").contains("not UTF-8 text (line 1)"));
+    assert!(answer(&vec![b'a'; 3_000_000]).contains("larger than 1 MB"));
+    assert!(answer("[".repeat(900_000).as_bytes()).contains("more than 32 deep"));
+    assert!(answer("a: {".repeat(200_000).as_bytes()).contains("more than 32 deep"));
+    assert!(answer("- ".repeat(400_000).as_bytes()).contains("deep"));
+    assert!(answer(&vec![b'a'; 900_000]).contains("this is not a study"));
+    assert!(answer(b"study: a\0b\n").contains("mistake"));
+    assert!(answer("x: 1\n".repeat(90_000).as_bytes()).contains("stands twice"));
+    let keys: String = (0..60_000).map(|key| format!("key{key}: 1\n")).collect();
+    assert!(keys.len() < 1_000_000);
+    assert!(answer("x: 1\n".repeat(150_000).as_bytes()).contains("more than 200000 values"));
+    assert!(answer(keys.as_bytes()).contains("1000 or more mistakes"));
+}
+
+#[test]
+fn a_huge_file_is_refused_without_being_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("study.yaml");
+    // 100 GB that take no room on the disk.
+    fs::File::create(&path).unwrap().set_len(100_000_000_000).unwrap();
+    let start = Instant::now();
+    assert!(check(&path).unwrap_err().to_string().contains("larger than 1 MB"));
+    assert!(start.elapsed() < PROMPT);
+}
+
+#[test]
+fn a_folder_and_a_missing_file_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    assert!(
+        check(folder.path())
+            .unwrap_err()
+            .to_string()
+            .contains("a folder, not a file")
+    );
+    let missing = check(&folder.path().join("absent.yaml")).unwrap_err();
+    assert!(missing.to_string().contains("there is no such file"), "{missing}");
+    assert!(missing.to_string().contains("quickstart.yaml"), "{missing}");
+}
+
+#[test]
+fn line_ends_of_windows_and_a_byte_order_mark_are_no_matter() {
+    let text = starter("windows");
+    let unix = check_text(&text).unwrap();
+    let windows = check_text(&format!("\u{feff}{}", text.replace('\n', "\r\n"))).unwrap();
+    assert_eq!(unix.cases, windows.cases);
+}
+
+#[test]
+fn a_place_is_counted_in_characters() {
+    let error =
+        check_text("study: a\nquestion: Größe\nbase: {specimen: {length: 3 Ångström, width: 1}}\n").unwrap_err();
+    let places: Vec<_> = error
+        .mistakes()
+        .iter()
+        .filter_map(|mistake| Some((mistake.line?, mistake.column?)))
+        .collect();
+    assert!(places.contains(&(3, 27)) && places.contains(&(3, 46)), "{error}");
+}
+
+#[test]
+fn a_thousand_cases_are_planned_in_no_time() {
+    let sweep = "sweep:\n  loading.strain-rate.rate: {from: 1e6 /s, to: 1e8 /s, step: 1e6 /s}\n  crack.length: {from: 30 nm, to: 75 nm, step: 5 nm}\n";
+    let text = starter("many")
+        .replace("cases: ", "# ")
+        .replace("  slow: {}", "")
+        .replace("  fast: ", "# ")
+        + sweep;
+    let start = Instant::now();
+    let plan = check_text(&text).unwrap();
+    assert_eq!(plan.cases.len(), 1000);
+    assert!(start.elapsed() < PROMPT / 2, "{:?}", start.elapsed());
+}
+
+#[test]
+fn the_report_points_at_both_places_of_a_clash() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/study_files/bad/crack_longer_than_specimen.yaml");
+    let report = check(&path).unwrap_err().render(false);
+    assert!(report.contains("crack_longer_than_specimen.yaml:"), "{report}");
+    assert!(
+        report.contains("─── the specimen") || report.contains("╰── the specimen"),
+        "{report}"
+    );
+    assert!(!report.contains('\u{1b}'));
+    assert!(check(&path).unwrap_err().render(true).contains('\u{1b}'));
+}

@@ -29,9 +29,9 @@ fn signal(child: &Child, name: &str) {
 }
 
 /// A study whose cases go on until they are stopped, with one at work.
-fn at_work(place: &Workspace) -> Child {
+fn at_work(place: &Workspace, behaviour: &str) -> Child {
     let arguments = ["study", "run", "slab.yaml", "--jobs", "1"];
-    let child = place.command(&arguments).env("FAKE_SLOW", "study:").spawn().unwrap();
+    let child = place.command(&arguments).env(behaviour, "study:").spawn().unwrap();
     wait_for("the first case", || place.starts().len() == 1);
     // The first progress arrives after the start, and the note of it after that.
     wait_for("its progress", || {
@@ -50,7 +50,7 @@ fn checkpoints(place: &Workspace) -> usize {
 fn ctrl_c_leaves_checkpoints_and_says_how_to_go_on() {
     for name in ["-INT", "-TERM"] {
         let place = Workspace::new();
-        let child = at_work(&place);
+        let child = at_work(&place, "FAKE_SLOW");
         signal(&child, name);
         let output = child.wait_with_output().unwrap();
         let words = String::from_utf8(output.stdout).unwrap();
@@ -82,9 +82,34 @@ fn ctrl_c_leaves_checkpoints_and_says_how_to_go_on() {
 #[test]
 fn no_solver_outlives_a_killed_runner() {
     let place = Workspace::new();
-    let mut child = at_work(&place);
+    let mut child = at_work(&place, "FAKE_SLOW");
     child.kill().unwrap();
     child.wait().unwrap();
     wait_for("the checkpoint of the orphan", || checkpoints(&place) == 1);
     place.cgaft(&["study", "run", "slab.yaml"]).succeeded();
+}
+
+#[test]
+fn a_second_ctrl_c_ends_a_solver_that_does_not_listen() {
+    let place = Workspace::new();
+    let child = at_work(&place, "FAKE_STUBBORN");
+    let start = Instant::now();
+    signal(&child, "-INT");
+    // Signals of one kind that arrive together count once.
+    thread::sleep(Duration::from_millis(300));
+    signal(&child, "-INT");
+    let output = child.wait_with_output().unwrap();
+    assert_eq!(output.status.code(), Some(130));
+    assert!(start.elapsed() < PATIENCE);
+    let status = place
+        .cgaft(&["study", "status", "slab.yaml", "--json"])
+        .succeeded()
+        .json();
+    assert_eq!(
+        of_cases(&status, "state")
+            .iter()
+            .filter(|state| *state == "partial")
+            .count(),
+        1
+    );
 }
