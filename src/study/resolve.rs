@@ -3,6 +3,7 @@
 //! A mistake keeps nothing else from being checked: what depends on a wrong value is left out, what does not is not.
 
 mod material;
+mod resolution;
 mod run;
 mod specimen;
 

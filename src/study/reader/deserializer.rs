@@ -1,0 +1,222 @@
+//! The tree as serde sees it.
+
+use super::{
+    Fault, GIVEN, OTHERWISE,
+    access::{Caught, Entries, Items, Variant},
+};
+use crate::study::{
+    finding::{Findings, alternatives, suggestion},
+    tree::{Node, Value},
+};
+use serde::de::{Deserializer, Expected, Visitor};
+
+#[derive(Clone, Copy)]
+pub struct Reader<'a> {
+    pub node: &'a Node,
+    /// Key under which the node stands; empty for the whole file.
+    pub within: &'a str,
+    pub findings: &'a Findings,
+}
+
+impl<'a> Reader<'a> {
+    pub fn at(self, node: &'a Node) -> Self {
+        Self { node, ..self }
+    }
+
+    fn unexpected(&self, expected: &dyn Expected) -> Fault {
+        let found = match &self.node.value {
+            Value::Null => return Fault::new(self.node.place, format!("a value is missing: expected {expected}")),
+            Value::Word(text) => format!("`{}`", shortened(text)),
+            Value::List(_) => "a list".into(),
+            Value::Map(_) => "a map".into(),
+        };
+        Fault::new(self.node.place, format!("expected {expected}, found {found}"))
+    }
+
+    fn number<T: std::str::FromStr>(&self, expected: &str) -> Result<T, Fault> {
+        let number = if let Value::Word(text) = &self.node.value {
+            text.trim().parse().ok()
+        } else {
+            None
+        };
+        number.ok_or_else(|| self.unexpected(&expected))
+    }
+}
+
+impl<'de> Deserializer<'de> for Reader<'de> {
+    type Error = Fault;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        match &self.node.value {
+            Value::Null => visitor.visit_unit(),
+            Value::Word(text) => visitor.visit_borrowed_str(text),
+            Value::List(items) => visitor.visit_seq(Items {
+                reader: self,
+                items: items.iter(),
+            }),
+            Value::Map(entries) => visitor.visit_map(Entries::new(self, entries, None)),
+        }
+    }
+
+    fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        match &self.node.value {
+            Value::Word(text) => visitor.visit_borrowed_str(text),
+            _ => Err(self.unexpected(&visitor)),
+        }
+    }
+
+    fn deserialize_string<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        self.deserialize_str(visitor)
+    }
+
+    fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        visitor.visit_u32(self.number("a whole number such as 10")?)
+    }
+
+    fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        let number: f64 = self.number("a number such as 0.8")?;
+        if number.is_finite() {
+            visitor.visit_f64(number)
+        } else {
+            Err(self.unexpected(&"a number such as 0.8"))
+        }
+    }
+
+    fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        match &self.node.value {
+            Value::List(items) => visitor.visit_seq(Items {
+                reader: self,
+                items: items.iter(),
+            }),
+            _ => Err(self
+                .unexpected(&"a list")
+                .help("put brackets around it, or `- ` before every item")),
+        }
+    }
+
+    fn deserialize_tuple<V: Visitor<'de>>(self, length: usize, visitor: V) -> Result<V::Value, Fault> {
+        match &self.node.value {
+            Value::List(items) if items.len() == length => self.deserialize_seq(visitor),
+            Value::List(items) => {
+                let message = format!("expected a list of {length} values, found {}", items.len());
+                Err(Fault::new(self.node.place, message).help("write [x, y]"))
+            }
+            _ => Err(self
+                .unexpected(&format!("a list of {length} values").as_str())
+                .help("write [x, y]")),
+        }
+    }
+
+    fn deserialize_tuple_struct<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        length: usize,
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        if name == GIVEN {
+            visitor.visit_seq(Caught { reader: self, part: 0 })
+        } else {
+            self.deserialize_tuple(length, visitor)
+        }
+    }
+
+    fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        match &self.node.value {
+            Value::Null => visitor.visit_map(Entries::new(self, &[], None)),
+            Value::Map(_) => self.deserialize_any(visitor),
+            _ => Err(self.unexpected(&"a map of names and values").help(MAP)),
+        }
+    }
+
+    fn deserialize_struct<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        fields: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        let entries = match &self.node.value {
+            Value::Null => [].as_slice(),
+            Value::Map(entries) => entries,
+            _ => {
+                return Err(self
+                    .unexpected(&format!("a map with {}", alternatives(fields)).as_str())
+                    .help(MAP));
+            }
+        };
+        visitor.visit_map(Entries::new(self, entries, Some(fields)))
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        _name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Fault> {
+        let otherwise = variants.contains(&OTHERWISE);
+        let (key, content) = match &self.node.value {
+            Value::Word(_) => (self.node, None),
+            Value::Map(entries) if entries.len() == 1 => (&entries[0].0, Some(&entries[0].1)),
+            Value::Map(entries) if entries.len() > 1 => {
+                let keys: Vec<&str> = entries.iter().map(|(key, _)| key.text()).collect();
+                let message = format!(
+                    "{} exclude each other here",
+                    alternatives(&keys).replace(" or ", " and ")
+                );
+                return Err(Fault::new(entries[1].0.place, message).help("keep one of them"));
+            }
+            _ => {
+                return Err(self
+                    .unexpected(&alternatives(&named(variants)).as_str())
+                    .help("write one of them"));
+            }
+        };
+        let name = key.text();
+        if named(variants).contains(&name) {
+            return visitor.visit_enum(Variant {
+                reader: self.at(key),
+                name,
+                content,
+            });
+        }
+        if otherwise && content.is_none() {
+            let variant = Variant {
+                reader: self.at(key),
+                name: OTHERWISE,
+                content: Some(self.node),
+            };
+            let read = visitor.visit_enum(variant);
+            return read
+                .map_err(|fault: Fault| fault.help(suggestion(name, &named(variants)).replace("write", "or write")));
+        }
+        let message = format!(
+            "expected {}, found `{}`",
+            alternatives(&named(variants)),
+            shortened(name)
+        );
+        Err(Fault::new(key.place, message).help(suggestion(name, &named(variants))))
+    }
+
+    fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        visitor.visit_borrowed_str(self.node.text())
+    }
+
+    serde::forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u64 u128 f32 char bytes byte_buf option unit unit_struct newtype_struct
+        ignored_any
+    }
+}
+
+const MAP: &str = "write pairs such as `key: value`, in braces or indented below";
+
+/// Those variants that a person can type.
+fn named(variants: &[&'static str]) -> Vec<&'static str> {
+    variants.iter().copied().filter(|name| *name != OTHERWISE).collect()
+}
+
+pub fn shortened(text: &str) -> String {
+    if text.chars().count() <= 60 {
+        text.into()
+    } else {
+        text.chars().take(57).chain("...".chars()).collect()
+    }
+}
