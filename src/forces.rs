@@ -27,7 +27,7 @@ use crate::lattice::triangular;
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
-use crate::with_law;
+use crate::potential::{CutPotential, PairShape, with_law};
 use bulk::BulkBonds;
 use contact::Contacts;
 use interface::{InterfaceForce, State};
@@ -74,7 +74,17 @@ impl Forces {
         let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
         let bulk = BulkBonds::new(&mesh, listed);
         let interface_forces = vec![InterfaceForce::default(); interfaces.pairs.len()];
-        Self { mesh, material, interfaces, bulk, states, contacts: Contacts::default(), interface_forces, searches: 0, search_time: Duration::ZERO }
+        Self {
+            mesh,
+            material,
+            interfaces,
+            bulk,
+            states,
+            contacts: Contacts::default(),
+            interface_forces,
+            searches: 0,
+            search_time: Duration::ZERO,
+        }
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -93,13 +103,16 @@ impl Forces {
 
     /// Numbers of the interfaces that have left the intact path, ascending: the only memory that a restart must keep.
     pub fn open_interfaces(&self) -> Vec<u32> {
-        (0..self.states.len() as u32).filter(|&number| self.is_open(number as usize)).collect()
+        (0..self.states.len() as u32)
+            .filter(|&number| self.is_open(number as usize))
+            .collect()
     }
 
     /// Puts back what [`Self::open_interfaces`] gave.
     pub fn restore_open_interfaces(&mut self, open: &[u32]) {
         self.states.fill(State::Tight);
-        open.iter().for_each(|&number| self.states[number as usize] = State::Open);
+        open.iter()
+            .for_each(|&number| self.states[number as usize] = State::Open);
         self.contacts.forget();
     }
 
@@ -131,11 +144,7 @@ impl Forces {
     }
 
     /// Sums the strings of interfaces that are not open, and notes those that loosen or open.
-    fn sum_interfaces<S: crate::potential::PairShape>(
-        &mut self,
-        law: &crate::potential::CutPotential<S>,
-        position: &Planes,
-    ) {
+    fn sum_interfaces<S: PairShape>(&mut self, law: &CutPotential<S>, position: &Planes) {
         let limit = interface::IntactLimit {
             cutoff: law.cutoff(),
             unlisted: self.unlisted_length(),
@@ -166,7 +175,9 @@ impl Forces {
             })
             .collect();
         if !changed.is_empty() {
-            changed.into_iter().for_each(|(number, state)| self.states[number] = state);
+            changed
+                .into_iter()
+                .for_each(|(number, state)| self.states[number] = state);
             self.contacts.forget();
         }
     }
@@ -176,7 +187,11 @@ impl Forces {
             return Ok(());
         }
         self.check_sound(position)?;
-        let field = contact::Field { mesh: &self.mesh, interfaces: &self.interfaces, states: &self.states };
+        let field = contact::Field {
+            mesh: &self.mesh,
+            interfaces: &self.interfaces,
+            states: &self.states,
+        };
         let start = Instant::now();
         self.contacts = Contacts::search(&field, &self.material, position);
         self.searches += 1;
@@ -205,17 +220,14 @@ impl Forces {
     }
 
     /// Adds up bulk, interfaces and contacts on the nodes, element by element.
-    fn assemble<S: crate::potential::PairShape>(
-        &self,
-        law: &crate::potential::CutPotential<S>,
-        position: &Planes,
-        force: &mut Planes,
-    ) {
+    fn assemble<S: PairShape>(&self, law: &CutPotential<S>, position: &Planes, force: &mut Planes) {
         let triangles = self.mesh.triangles;
         let [force_x, force_y] = force;
         let (triangle_x, atom_x) = force_x.split_at_mut(3 * triangles);
         let (triangle_y, atom_y) = force_y.split_at_mut(3 * triangles);
-        let planes = triangle_x.par_chunks_mut(3 * CHUNK).zip(triangle_y.par_chunks_mut(3 * CHUNK));
+        let planes = triangle_x
+            .par_chunks_mut(3 * CHUNK)
+            .zip(triangle_y.par_chunks_mut(3 * CHUNK));
         planes.enumerate().for_each(|(chunk, (x, y))| {
             for k in 0..x.len() / 3 {
                 let nodal = self.triangle_force(law, chunk * CHUNK + k, position);
@@ -230,17 +242,16 @@ impl Forces {
             for k in 0..x.len() {
                 let element = triangles + chunk * CHUNK + k;
                 let sites = self.contacts.sites_of(element);
-                [x[k], y[k]] = if sites.is_empty() { [0.0, 0.0] } else { self.contacts.force_on(sites.start) };
+                [x[k], y[k]] = if sites.is_empty() {
+                    [0.0, 0.0]
+                } else {
+                    self.contacts.force_on(sites.start)
+                };
             }
         });
     }
 
-    fn triangle_force<S: crate::potential::PairShape>(
-        &self,
-        law: &crate::potential::CutPotential<S>,
-        element: usize,
-        position: &Planes,
-    ) -> [[f64; 2]; 3] {
+    fn triangle_force<S: PairShape>(&self, law: &CutPotential<S>, element: usize, position: &Planes) -> [[f64; 2]; 3] {
         let shape = &self.mesh.elements[element];
         let affine = Affine::of_triangle(shape.size, self.mesh.first_node(element), position);
         let mut nodal = self.bulk.force(law, shape.size, &affine, self.material.spacing);

@@ -37,7 +37,13 @@ impl Stretching {
             }
         }
         let [low, high] = mesh.grip_edges();
-        Self { rate, grip, ramp, nodes, speed: 0.5 * rate * (high - low) }
+        Self {
+            rate,
+            grip,
+            ramp,
+            nodes,
+            speed: 0.5 * rate * (high - low),
+        }
     }
 
     /// Takes hold of the grips and sets the velocities of the start.
@@ -91,8 +97,19 @@ mod tests {
     use crate::mesh::sites::Layout;
 
     fn mesh() -> Mesh {
-        let layout = Layout { block: 10, rows: 4, triangles: 5 };
-        Mesh::new(&Plan { layout, element: 10, regions: vec![], crack_length: None, grip_rows: 10, spacing: 1.0 })
+        let layout = Layout {
+            block: 10,
+            rows: 4,
+            triangles: 5,
+        };
+        Mesh::new(&Plan {
+            layout,
+            element: 10,
+            regions: vec![],
+            crack_length: None,
+            grip_rows: 10,
+            spacing: 1.0,
+        })
     }
 
     #[test]

@@ -23,7 +23,11 @@ impl Material {
     /// The crystal of this potential in its zero-pressure state.
     pub fn new(interaction: Interaction, site_mass: f64) -> Option<Self> {
         let spacing = zero_pressure_spacing(&interaction)?;
-        Some(Self { interaction, spacing, site_mass })
+        Some(Self {
+            interaction,
+            spacing,
+            site_mass,
+        })
     }
 
     /// Mass per area.
@@ -36,7 +40,9 @@ impl Material {
     pub fn fracture_energy(&self) -> f64 {
         let jump = self.interaction.jump_at_cutoff();
         let reach = self.interaction.cutoff() / self.spacing;
-        let bonds = triangular::half_vectors_within(reach).into_iter().filter(|vector| vector[1] > 0);
+        let bonds = triangular::half_vectors_within(reach)
+            .into_iter()
+            .filter(|vector| vector[1] > 0);
         let lost = bonds.map(|vector| {
             let squared = f64::from(triangular::squared_length(vector)) * self.spacing * self.spacing;
             f64::from(vector[1]) * (jump - self.interaction.evaluate(squared).energy)
@@ -58,7 +64,10 @@ mod tests {
     use crate::potential::{AtCutoff, CutPotential, LennardJones};
 
     pub(crate) fn lennard_jones(cutoff: f64) -> Material {
-        let shape = LennardJones { epsilon: 1.0, sigma: 1.0 };
+        let shape = LennardJones {
+            epsilon: 1.0,
+            sigma: 1.0,
+        };
         let law = CutPotential::new(shape, cutoff, AtCutoff::Truncated);
         Material::new(Interaction::LennardJones(law), 1.0).expect("Lennard-Jones has a zero-pressure lattice")
     }
@@ -89,7 +98,10 @@ mod tests {
                 (speeds.rayleigh, c_r),
             ];
             for (found, expected) in pairs {
-                assert!((found / expected - 1.0).abs() < PRINTED_DIGITS, "cutoff {cutoff}: {found} for {expected}");
+                assert!(
+                    (found / expected - 1.0).abs() < PRINTED_DIGITS,
+                    "cutoff {cutoff}: {found} for {expected}"
+                );
             }
         }
     }
@@ -103,7 +115,10 @@ mod tests {
 
     #[test]
     fn parting_a_row_costs_two_full_wells_a_spacing_unless_truncated() {
-        let shape = LennardJones { epsilon: 1.0, sigma: 1.0 };
+        let shape = LennardJones {
+            epsilon: 1.0,
+            sigma: 1.0,
+        };
         let smooth = CutPotential::new(shape, 1.9, AtCutoff::Smooth { from: 1.5 });
         let material = Material::new(Interaction::LennardJones(smooth), 1.0).unwrap();
         assert!((material.fracture_energy() - 1.7818).abs() < PRINTED_DIGITS);

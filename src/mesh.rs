@@ -64,8 +64,20 @@ impl Mesh {
             }
         }
         let left = sites.left();
-        let cut = plan.crack_length.map(|length| Cut { row: middle, from: left - 1.0, to: left + length });
-        Self { sites, elements, triangles, owner, cut, spacing: plan.spacing, grip_rows: plan.grip_rows }
+        let cut = plan.crack_length.map(|length| Cut {
+            row: middle,
+            from: left - 1.0,
+            to: left + length,
+        });
+        Self {
+            sites,
+            elements,
+            triangles,
+            owner,
+            cut,
+            spacing: plan.spacing,
+            grip_rows: plan.grip_rows,
+        }
     }
 
     pub fn node_count(&self) -> usize {
@@ -75,7 +87,11 @@ impl Mesh {
     /// Number of an element's first node.
     #[inline(always)]
     pub fn first_node(&self, element: usize) -> usize {
-        if element <= self.triangles { 3 * element } else { 2 * self.triangles + element }
+        if element <= self.triangles {
+            3 * element
+        } else {
+            2 * self.triangles + element
+        }
     }
 
     /// Reference position of a site, nm, in lattice coordinates.
@@ -86,7 +102,10 @@ impl Mesh {
     /// Reference positions of the nodes, x and y, nm.
     pub fn node_positions(&self) -> [Vec<f64>; 2] {
         let corners = self.elements.iter().flat_map(Element::corners);
-        let [mut x, mut y] = [Vec::with_capacity(self.node_count()), Vec::with_capacity(self.node_count())];
+        let [mut x, mut y] = [
+            Vec::with_capacity(self.node_count()),
+            Vec::with_capacity(self.node_count()),
+        ];
         for corner in corners {
             let position = self.reference(corner);
             x.push(position[0]);
@@ -98,7 +117,8 @@ impl Mesh {
     /// Lumped mass of every node in site masses.
     pub fn lumped_masses(&self) -> Vec<f64> {
         let each = self.elements.iter();
-        each.flat_map(|element| std::iter::repeat_n(element.lumped_mass(), element.node_count())).collect()
+        each.flat_map(|element| std::iter::repeat_n(element.lumped_mass(), element.node_count()))
+            .collect()
     }
 
     pub fn owner_of(&self, site: [i32; 2]) -> Option<usize> {
@@ -144,8 +164,15 @@ fn target_sizes(plan: &Plan, sites: &SiteSet) -> Vec<u16> {
     let size = |site: [i32; 2]| {
         let [x, y] = triangular::position(site);
         let place = [(x - left) * plan.spacing, (y - middle) * plan.spacing];
-        let finer = plan.regions.iter().filter(|region| region.shape.contains(place)).map(|region| region.element);
-        finer.chain([plan.element]).min().expect("the specimen's own size is there")
+        let finer = plan
+            .regions
+            .iter()
+            .filter(|region| region.shape.contains(place))
+            .map(|region| region.element);
+        finer
+            .chain([plan.element])
+            .min()
+            .expect("the specimen's own size is there")
     };
     sites.iter().map(size).collect()
 }
@@ -156,11 +183,21 @@ mod tests {
     use super::*;
 
     fn plan(layout: Layout, element: u16) -> Plan {
-        Plan { layout, element, regions: vec![], crack_length: None, grip_rows: layout.block, spacing: 0.25559 }
+        Plan {
+            layout,
+            element,
+            regions: vec![],
+            crack_length: None,
+            grip_rows: layout.block,
+            spacing: 0.25559,
+        }
     }
 
     fn check_cover(mesh: &Mesh) {
-        assert!(mesh.owner.iter().all(|&owner| owner != u32::MAX), "every site has an element");
+        assert!(
+            mesh.owner.iter().all(|&owner| owner != u32::MAX),
+            "every site has an element"
+        );
         let held: usize = mesh.elements.iter().map(Element::site_count).sum();
         assert_eq!(held, mesh.sites.len(), "and only one");
     }
@@ -176,19 +213,30 @@ mod tests {
         let spacing = 2f64.powf(1.0 / 6.0) * 0.2277;
         for (model, length, width, elements, nodes, atoms) in rows {
             let layout = Layout::nearest(length / spacing, width / spacing, 10);
-            let mesh = Mesh::new(&Plan { spacing, ..plan(layout, 10) });
+            let mesh = Mesh::new(&Plan {
+                spacing,
+                ..plan(layout, 10)
+            });
             assert_eq!(mesh.elements.len(), elements, "model {model}");
             assert_eq!(mesh.node_count(), nodes, "model {model}");
             assert_eq!(mesh.sites.len(), atoms, "model {model}");
             check_cover(&mesh);
         }
-        let case_1 = Layout { block: 10, rows: 140, triangles: 229 };
+        let case_1 = Layout {
+            block: 10,
+            rows: 140,
+            triangles: 229,
+        };
         assert_eq!(Mesh::new(&plan(case_1, 10)).elements.len(), 32_060);
     }
 
     #[test]
     fn any_element_size_covers_the_same_sites_and_leaves_few_over() {
-        let layout = Layout { block: 10, rows: 12, triangles: 41 };
+        let layout = Layout {
+            block: 10,
+            rows: 12,
+            triangles: 41,
+        };
         for element in [1, 3, 4, 7, 13, 20, 40] {
             let mesh = Mesh::new(&plan(layout, element));
             check_cover(&mesh);
@@ -201,11 +249,33 @@ mod tests {
 
     #[test]
     fn regions_are_at_least_as_fine_as_asked_and_mix_freely() {
-        let layout = Layout { block: 10, rows: 12, triangles: 41 };
-        let band = Region { shape: Shape::Band { half_width: 3.0 }, element: 1 };
-        let disc = Region { shape: Shape::Disc { center: [40.0, 8.0], radius: 4.0 }, element: 4 };
-        let boxed = Region { shape: Shape::Box { from: [5.0, -12.0], to: [9.0, -9.0] }, element: 5 };
-        let mesh = Mesh::new(&Plan { regions: vec![band, disc, boxed], ..plan(layout, 10) });
+        let layout = Layout {
+            block: 10,
+            rows: 12,
+            triangles: 41,
+        };
+        let band = Region {
+            shape: Shape::Band { half_width: 3.0 },
+            element: 1,
+        };
+        let disc = Region {
+            shape: Shape::Disc {
+                center: [40.0, 8.0],
+                radius: 4.0,
+            },
+            element: 4,
+        };
+        let boxed = Region {
+            shape: Shape::Box {
+                from: [5.0, -12.0],
+                to: [9.0, -9.0],
+            },
+            element: 5,
+        };
+        let mesh = Mesh::new(&Plan {
+            regions: vec![band, disc, boxed],
+            ..plan(layout, 10)
+        });
         check_cover(&mesh);
         let left = mesh.sites.left() * mesh.spacing;
         for element in &mesh.elements {
@@ -223,12 +293,19 @@ mod tests {
 
     #[test]
     fn no_element_crosses_the_crack_plane_or_a_grip() {
-        let layout = Layout { block: 10, rows: 9, triangles: 21 };
+        let layout = Layout {
+            block: 10,
+            rows: 9,
+            triangles: 21,
+        };
         for element in [7, 10, 20] {
             let mesh = Mesh::new(&plan(layout, element));
             for boundary in [10, 40, 80] {
                 let astride = |e: &Element| e.sites().any(|s| s[1] < boundary) && e.sites().any(|s| s[1] >= boundary);
-                assert!(!mesh.elements.iter().any(astride), "element {element}, boundary {boundary}");
+                assert!(
+                    !mesh.elements.iter().any(astride),
+                    "element {element}, boundary {boundary}"
+                );
             }
         }
     }

@@ -22,7 +22,7 @@ pub trait PairShape: Copy + Send + Sync + std::fmt::Debug {
     fn minimum(&self) -> f64;
 }
 
-/// Any of the potentials, cut. Inner loops take it apart once by [`with_law!`](crate::with_law), so that each
+/// Any of the potentials, cut. Inner loops take it apart once by `with_law!`, so that each
 /// potential has its own compiled loop.
 #[derive(Clone, Copy, Debug)]
 pub enum Interaction {
@@ -32,7 +32,6 @@ pub enum Interaction {
 }
 
 /// Runs an expression with the concrete potential inside an [`Interaction`].
-#[macro_export]
 macro_rules! with_law {
     ($interaction:expr, $law:ident => $body:expr) => {
         match $interaction {
@@ -42,6 +41,7 @@ macro_rules! with_law {
         }
     };
 }
+pub(crate) use with_law;
 
 impl Interaction {
     /// Distance beyond which a pair does not interact.

@@ -31,7 +31,14 @@ pub enum SetupError {
         "a specimen of {length} x {width} nm has room for {rows} rows of {triangles} triangles of {block} atoms an edge \
          ({spacing:.4} nm apart); it needs 4 rows (two are grips) of at least 3: make it larger, or `block` smaller"
     )]
-    TooSmall { length: f64, width: f64, rows: i32, triangles: i32, block: u32, spacing: f64 },
+    TooSmall {
+        length: f64,
+        width: f64,
+        rows: i32,
+        triangles: i32,
+        block: u32,
+        spacing: f64,
+    },
     #[error(
         "a mesh of {sites} sites needs about {needed:.1} GiB and this machine has {present:.1} GiB free; \
          make the specimen smaller, or use larger elements"
@@ -57,13 +64,17 @@ pub fn material(case: &Case) -> Result<Material, SetupError> {
         case::PotentialShape::Morse { depth, decay, distance } => {
             Interaction::Morse(CutPotential::new(Morse { depth, decay, distance }, cutoff, at_cutoff))
         }
-        case::PotentialShape::HarmonicBond { stiffness, distance } => {
-            Interaction::HarmonicBond(CutPotential::new(HarmonicBond { stiffness, distance }, cutoff, at_cutoff))
-        }
+        case::PotentialShape::HarmonicBond { stiffness, distance } => Interaction::HarmonicBond(CutPotential::new(
+            HarmonicBond { stiffness, distance },
+            cutoff,
+            at_cutoff,
+        )),
     };
     let site_mass = case.material.mass * U_IN_EV_PS2_PER_NM2;
-    Material::new(interaction, site_mass)
-        .ok_or(SetupError::NoLattice { cutoff, minimum: interaction.minimum() })
+    Material::new(interaction, site_mass).ok_or(SetupError::NoLattice {
+        cutoff,
+        minimum: interaction.minimum(),
+    })
 }
 
 /// What the mesh of a case is made from.
@@ -71,7 +82,11 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
     let case::Lattice::Triangular = case.specimen.lattice;
     let spacing = material.spacing;
     let specimen = &case.specimen;
-    let layout = Layout::nearest(specimen.length / spacing, specimen.width / spacing, specimen.block as i32);
+    let layout = Layout::nearest(
+        specimen.length / spacing,
+        specimen.width / spacing,
+        specimen.block as i32,
+    );
     if layout.rows < 4 || layout.triangles < 3 {
         return Err(SetupError::TooSmall {
             length: specimen.length,
@@ -94,7 +109,12 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
         layout,
         element: case.resolution.element as u16,
         regions: case.resolution.regions.iter().map(region).collect(),
-        crack_length: case.crack.as_ref().map(|case::Crack { edge: case::Edge::Left, length }| length / spacing),
+        crack_length: case.crack.as_ref().map(
+            |case::Crack {
+                 edge: case::Edge::Left,
+                 length,
+             }| length / spacing,
+        ),
         grip_rows: specimen.block as i32,
         spacing,
     })
@@ -106,7 +126,11 @@ pub fn solver(case: &Case) -> Result<Solver, SetupError> {
     let plan = mesh_plan(case, &material)?;
     estimate::refuse_what_does_not_fit(&plan)?;
     let mesh = Mesh::new(&plan);
-    let case::Loading::StrainRate { mode: case::Mode::I, rate, ramp } = case.loading;
+    let case::Loading::StrainRate {
+        mode: case::Mode::I,
+        rate,
+        ramp,
+    } = case.loading;
     let grip = match case.specimen.grips {
         case::Grips::Clamped => Grip::Clamped,
         case::Grips::Sliding => Grip::Sliding,

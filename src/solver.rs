@@ -3,8 +3,11 @@
 pub mod checkpoint;
 mod cost;
 mod ledger;
+mod observe;
 mod probe;
+mod resume;
 mod schedule;
+mod setting;
 mod stop;
 mod temperature;
 mod time_step;
@@ -23,7 +26,7 @@ use crate::analysis::series::{BondEvent, Probe, Setting};
 use crate::forces::{ForceError, Forces, Measure};
 use crate::integrator;
 use crate::loading::Stretching;
-use crate::material::{Elasticity, Material, WaveSpeeds};
+use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::state::State;
 use checkpoint::Checkpoint;
@@ -95,12 +98,24 @@ pub enum SolverError {
         "step {step}, {time:.3} ps, strain {strain:.5}: {source}; \
          try a smaller fraction of the stability limit or a lower strain rate"
     )]
-    BlowUp { step: u64, time: f64, strain: f64, source: ForceError },
+    BlowUp {
+        step: u64,
+        time: f64,
+        strain: f64,
+        source: ForceError,
+    },
     #[error(
         "step {step}, {time:.3} ps, strain {strain:.5}: energy went astray by {imbalance:.3e} eV, \
          more than {limit:.0} % of the energy put in ({put_in:.3e} eV); try a smaller fraction of the stability limit"
     )]
-    EnergyAstray { step: u64, time: f64, strain: f64, imbalance: f64, put_in: f64, limit: f64 },
+    EnergyAstray {
+        step: u64,
+        time: f64,
+        strain: f64,
+        imbalance: f64,
+        put_in: f64,
+        limit: f64,
+    },
     #[error("the run cannot start: {0}")]
     NoStart(ForceError),
 }
@@ -141,14 +156,20 @@ impl Solver {
     /// A specimen at the start of its loading.
     pub fn new(mesh: Mesh, material: Material, loading: Stretching, settings: Settings) -> Result<Self, SolverError> {
         let mut clock = Instant::now();
-        let masses = mesh.lumped_masses().into_iter().map(|mass| mass * material.site_mass).collect();
+        let masses = mesh
+            .lumped_masses()
+            .into_iter()
+            .map(|mass| mass * material.site_mass)
+            .collect();
         let mut state = State::at_rest(mesh.node_positions(), masses);
         loading.start(&mesh, &mut state);
-        let setting = setting(&mesh, &material, &loading, settings.thickness);
+        let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let profile = ProfileLine::new(&mesh, &setting);
         let tracker = Tracker::new(&setting);
         let mut forces = Forces::new(mesh, material);
-        forces.compute(&state.position, &mut state.force).map_err(SolverError::NoStart)?;
+        forces
+            .compute(&state.position, &mut state.force)
+            .map_err(SolverError::NoStart)?;
         let start = forces.measure(&state.position).map_err(SolverError::NoStart)?;
         let stability_limit = time_step::limit(&mut forces, &state).map_err(SolverError::NoStart)?;
         let time_step = settings.time_step.choose(stability_limit)?;
@@ -225,7 +246,10 @@ impl Solver {
             self.observe(observer, false)?;
         }
         loop {
-            if let Some(ending) = self.stop.ending(&self.settings.until, self.time, self.strain(), self.time_step) {
+            if let Some(ending) = self
+                .stop
+                .ending(&self.settings.until, self.time, self.strain(), self.time_step)
+            {
                 self.observe(observer, true)?;
                 self.save(observer)?;
                 return Ok(ending);
@@ -291,157 +315,11 @@ impl Solver {
     }
 
     fn blow_up(&self, source: ForceError) -> SolverError {
-        SolverError::BlowUp { step: self.step, time: self.time, strain: self.strain(), source }
-    }
-
-    /// Gives observers what is due; at the end of a run all that is not yet given.
-    fn observe<O: Observer>(&mut self, observer: &mut O, at_end: bool) -> Result<(), RunError<O::Error>> {
-        let probe = self.probes.take(self.time, self.time_step, at_end);
-        let snapshot = self.snapshots.take(self.time, self.time_step, at_end);
-        if !probe && !snapshot {
-            return Ok(());
-        }
-        let mut clock = Instant::now();
-        let measure = self.forces.measure(&self.state.position).map_err(|source| self.blow_up(source))?;
-        if probe {
-            self.probe(observer, &measure)?;
-        }
-        if snapshot {
-            let broken = self.forces.broken_bonds(&self.state.position);
-            let moment = Moment {
-                step: self.step,
-                time: self.time,
-                strain: self.strain(),
-                mesh: self.forces.mesh(),
-                state: &self.state,
-                measure: &measure,
-                broken: &broken,
-            };
-            observer.snapshot(&moment).map_err(RunError::Output)?;
-        }
-        self.cost.book(Phase::Output, &mut clock);
-        Ok(())
-    }
-
-    fn probe<O: Observer>(&mut self, observer: &mut O, measure: &Measure) -> Result<(), RunError<O::Error>> {
-        let row = self.probe_row(measure);
-        let number = self.probes.taken() - 1;
-        let bonds = self.changed_bonds(number as u32);
-        if let Some(tracker) = &mut self.tracker {
-            bonds.iter().for_each(|event| tracker.apply(event));
-            self.stop.follow(tracker.tip().x, self.time);
-        }
-        let profile = self.profile.stress(measure, &self.setting);
-        observer.probe(&row, &profile, &bonds).map_err(RunError::Output)?;
-        observer.progress(&Progress {
-            step: self.step,
-            of: self.settings.until.steps(self.step, self.time, self.time_step, self.loading.rate),
-            time: self.time,
-            strain: self.strain(),
-            tip: self.tracker.as_ref().map(|_| self.stop.farthest_tip()),
-        });
-        self.ledger.check(self.step, self.time, self.strain())?;
-        Ok(())
-    }
-
-    fn probe_row(&mut self, measure: &Measure) -> Probe {
-        let kinetic = self.state.kinetic_energy();
-        let balance = self.ledger.balance(measure, kinetic);
-        let [sigma_xx, sigma_yy, sigma_xy] = probe::average_stress(self.forces.mesh(), measure, &self.setting);
-        let area = self.setting.length * self.setting.thickness;
-        Probe {
+        SolverError::BlowUp {
             step: self.step,
             time: self.time,
             strain: self.strain(),
-            sigma_xx,
-            sigma_yy,
-            sigma_xy,
-            grip_stress: self.loading.grip_force(&self.state) / area,
-            kinetic,
-            potential: balance.potential,
-            work: balance.work,
-            cutoff_release: balance.cutoff_release,
-            temperature: temperature::kinetic_temperature(self.forces.mesh(), &self.state),
+            source,
         }
-    }
-
-    /// Bonds that broke or closed since the last probe; remembers those broken now.
-    fn changed_bonds(&mut self, probe: u32) -> Vec<BondEvent> {
-        let now = self.forces.broken_bonds(&self.state.position);
-        let before = if probe == 0 { Vec::new() } else { std::mem::take(&mut self.broken) };
-        let events = probe::bond_events(&before, &now, probe);
-        self.broken = now;
-        events
-    }
-
-    /// Everything that a later run needs to go on from here.
-    pub fn checkpoint(&self) -> Checkpoint {
-        Checkpoint {
-            step: self.step,
-            time: self.time,
-            time_step: self.time_step,
-            position: self.state.position.clone(),
-            velocity: self.state.velocity.clone(),
-            open_interfaces: self.forces.open_interfaces(),
-            work: self.ledger.work(),
-            peak_work: self.ledger.peak_work(),
-            peak_imbalance: self.ledger.peak_imbalance(),
-            broken_bonds: self.broken.clone(),
-            probes: self.probes.taken(),
-            snapshots: self.snapshots.taken(),
-            last_advance: self.stop.last_advance(),
-            farthest_tip: self.stop.farthest_tip(),
-        }
-    }
-
-    /// Goes back to where a checkpoint was made.
-    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SolverError> {
-        self.step = checkpoint.step;
-        self.time = checkpoint.time;
-        self.time_step = checkpoint.time_step;
-        self.state.position.clone_from(&checkpoint.position);
-        self.state.velocity.clone_from(&checkpoint.velocity);
-        self.forces.restore_open_interfaces(&checkpoint.open_interfaces);
-        self.forces.compute(&self.state.position, &mut self.state.force).map_err(|source| self.blow_up(source))?;
-        self.power = self.loading.power(&self.state);
-        self.ledger.restore(checkpoint.work, checkpoint.peak_work, checkpoint.peak_imbalance);
-        self.broken.clone_from(&checkpoint.broken_bonds);
-        self.tracker = Tracker::new(&self.setting);
-        if let Some(tracker) = &mut self.tracker {
-            let last_probe = checkpoint.probes.saturating_sub(1) as u32;
-            probe::bond_events(&[], &self.broken, last_probe).iter().for_each(|event| tracker.apply(event));
-        }
-        self.probes.restore(checkpoint.probes, checkpoint.step);
-        self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
-        self.stop.restore(checkpoint.last_advance, checkpoint.farthest_tip);
-        Ok(())
-    }
-}
-
-/// Gathers what the analysis must know.
-fn setting(mesh: &Mesh, material: &Material, loading: &Stretching, thickness: f64) -> Setting {
-    let elasticity = Elasticity::of(material);
-    let speeds = WaveSpeeds::of(material);
-    let left = mesh.sites.left();
-    let [low, high] = mesh.grip_edges();
-    Setting {
-        spacing: mesh.spacing,
-        length: mesh.sites.layout.length() * mesh.spacing,
-        left_x: left * mesh.spacing,
-        height: high - low,
-        crack_row: mesh.cut.map(|cut| cut.row),
-        crack_length: mesh.cut.map_or(0.0, |cut| (cut.to - left) * mesh.spacing),
-        strain_rate: loading.rate,
-        thickness,
-        longitudinal_speed: speeds.longitudinal,
-        transverse_speed: speeds.transverse,
-        rayleigh_speed: speeds.rayleigh,
-        young_modulus: elasticity.young_modulus(),
-        poisson_ratio: elasticity.poisson_ratio(),
-        fracture_energy: material.fracture_energy(),
-        element_at_crack: probe::element_at_crack(mesh),
-        nodes: mesh.node_count() as u64,
-        elements: mesh.elements.len() as u64,
-        represented_atoms: mesh.sites.len() as u64,
     }
 }

@@ -19,7 +19,13 @@ impl State {
         let nodes = mass.len();
         let free: Vec<f64> = mass.iter().map(|mass| 1.0 / mass).collect();
         let zeros = || [vec![0.0; nodes], vec![0.0; nodes]];
-        Self { position, velocity: zeros(), force: zeros(), mass, mobility: [free.clone(), free] }
+        Self {
+            position,
+            velocity: zeros(),
+            force: zeros(),
+            mass,
+            mobility: [free.clone(), free],
+        }
     }
 
     pub fn nodes(&self) -> usize {
@@ -29,7 +35,11 @@ impl State {
     /// Kinetic energy of the lumped masses, eV.
     pub fn kinetic_energy(&self) -> f64 {
         let [x, y] = &self.velocity;
-        let squared = x.iter().zip(y).zip(&self.mass).map(|((x, y), mass)| mass * (x * x + y * y));
+        let squared = x
+            .iter()
+            .zip(y)
+            .zip(&self.mass)
+            .map(|((x, y), mass)| mass * (x * x + y * y));
         0.5 * squared.sum::<f64>()
     }
 }

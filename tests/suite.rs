@@ -3,7 +3,6 @@
 mod suite {
     mod analysis;
     mod cli;
-    mod dump;
     mod executor;
     mod forces;
     mod record;

@@ -2,10 +2,10 @@ use clap::Args;
 use serde_json::json;
 
 use super::estimate::estimate;
-use crate::setup::Estimate;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
 use super::{CliError, format};
+use crate::setup::Estimate;
 
 #[derive(Args, Debug)]
 pub struct Arguments {

@@ -34,7 +34,10 @@ impl Affine {
     #[inline(always)]
     pub fn vector(&self, [p, q]: [i32; 2]) -> [f64; 2] {
         let [p, q] = [f64::from(p), f64::from(q)];
-        [p * self.along[0][0] + q * self.along[1][0], p * self.along[0][1] + q * self.along[1][1]]
+        [
+            p * self.along[0][0] + q * self.along[1][0],
+            p * self.along[0][1] + q * self.along[1][1],
+        ]
     }
 
     /// Twice the signed area of one lattice triangle; not positive: inside out.
@@ -89,7 +92,10 @@ mod tests {
         for sign in [1, -1] {
             let step = f64::from(sign) * spacing;
             let along = [[step, 0.0], [0.5 * step, step * crate::lattice::triangular::ROW_HEIGHT]];
-            let affine = Affine { origin: [0.0, 0.0], along };
+            let affine = Affine {
+                origin: [0.0, 0.0],
+                along,
+            };
             let gradient = affine.deformation_gradient(sign, spacing);
             let expected = [[1.0, 0.0], [0.0, 1.0]];
             for k in 0..2 {

@@ -13,7 +13,8 @@ impl Forces {
     /// An intact interface keeps all its bonds, and what happens inside a triangle is deformation, not a crack.
     pub fn broken_bonds(&self, position: &Planes) -> Vec<[i32; 3]> {
         let rows = (0..self.mesh.sites.rows()).into_par_iter();
-        rows.flat_map_iter(|row| self.broken_bonds_of_row(row, position)).collect()
+        rows.flat_map_iter(|row| self.broken_bonds_of_row(row, position))
+            .collect()
     }
 
     fn broken_bonds_of_row(&self, row: i32, position: &Planes) -> Vec<[i32; 3]> {
@@ -28,7 +29,9 @@ impl Forces {
             }
             for (direction, vector) in triangular::NEAREST.iter().enumerate() {
                 let neighbour = [column + vector[0], row + vector[1]];
-                let Some(other) = mesh.owner_of(neighbour) else { continue };
+                let Some(other) = mesh.owner_of(neighbour) else {
+                    continue;
+                };
                 if other == element || mesh.severed(site, neighbour) || self.is_intact_between(element, other) {
                     continue;
                 }
@@ -45,12 +48,22 @@ impl Forces {
 
     /// Whether a triangle borders anything but intact interfaces.
     fn meets_others(&self, triangle: usize) -> bool {
-        let opened = || self.interfaces.of(triangle).iter().any(|&number| self.is_open(number as usize));
+        let opened = || {
+            self.interfaces
+                .of(triangle)
+                .iter()
+                .any(|&number| self.is_open(number as usize))
+        };
         self.interfaces.exposed[triangle] || opened()
     }
 
     fn is_intact_between(&self, a: usize, b: usize) -> bool {
         let triangles = self.mesh.triangles;
-        a < triangles && b < triangles && self.interfaces.between(a, b).is_some_and(|number| !self.is_open(number))
+        a < triangles
+            && b < triangles
+            && self
+                .interfaces
+                .between(a, b)
+                .is_some_and(|number| !self.is_open(number))
     }
 }

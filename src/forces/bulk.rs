@@ -21,7 +21,10 @@ pub struct BulkBonds {
 
 impl BulkBonds {
     pub fn new(mesh: &Mesh, listed_length: f64) -> Self {
-        let mut sizes: Vec<i32> = mesh.elements[..mesh.triangles].iter().map(|element| element.size).collect();
+        let mut sizes: Vec<i32> = mesh.elements[..mesh.triangles]
+            .iter()
+            .map(|element| element.size)
+            .collect();
         sizes.dedup();
         let table = |size: i32| {
             let bonds: Vec<BulkBond> = triangular::half_vectors_within(f64::from(size))
@@ -36,14 +39,20 @@ impl BulkBonds {
             let listed = bonds.iter().take_while(|bond| bond.length <= listed_length).count();
             (size, listed, bonds)
         };
-        Self { by_size: sizes.into_iter().map(table).collect() }
+        Self {
+            by_size: sizes.into_iter().map(table).collect(),
+        }
     }
 
     /// The lattice vectors of a triangle that may be within the cutoff: those listed, and under strong deformation as
     /// many more as the smallest stretch allows.
     #[inline(always)]
     pub fn within(&self, size: i32, affine: &Affine, spacing: f64, cutoff: f64) -> &[BulkBond] {
-        let (_, listed, bonds) = self.by_size.iter().find(|table| table.0 == size).expect("every size has its table");
+        let (_, listed, bonds) = self
+            .by_size
+            .iter()
+            .find(|table| table.0 == size)
+            .expect("every size has its table");
         let stretch = smallest_stretch(affine.deformation_gradient(1, spacing)) * spacing;
         let mut needed = *listed;
         while needed < bonds.len() && bonds[needed].length * stretch < cutoff {
@@ -78,7 +87,11 @@ impl BulkBonds {
 /// Number of bonds of a lattice vector inside a triangle: its overlap with itself is a smaller triangle.
 fn bond_count(size: i32, [i, j]: [i32; 2]) -> f64 {
     let overlap = size - (i.abs() + j.abs() + (i + j).abs()) / 2;
-    if overlap > 0 { f64::from(overlap * (overlap + 1) / 2) } else { 0.0 }
+    if overlap > 0 {
+        f64::from(overlap * (overlap + 1) / 2)
+    } else {
+        0.0
+    }
 }
 
 #[cfg(test)]
@@ -93,7 +106,12 @@ mod tests {
 
     #[test]
     fn bond_counts_are_those_found_site_by_site() {
-        let element = Element { size: 6, sign: -1, column: 2, row: 3 };
+        let element = Element {
+            size: 6,
+            sign: -1,
+            column: 2,
+            row: 3,
+        };
         for vector in triangular::half_vectors_within(6.0) {
             let ends = element.locals().filter(|&[p, q]| {
                 let [p, q] = [p + vector[0], q + vector[1]];

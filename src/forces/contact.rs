@@ -16,7 +16,7 @@ use super::affine::site_position;
 use super::{CHUNK, Planes};
 use crate::material::Material;
 use crate::mesh::Mesh;
-use crate::potential::{CutPotential, PairShape, PairValue};
+use crate::potential::{CutPotential, PairShape, PairValue, with_law};
 
 /// Sites that have partners, their lists, and the sums of the last call.
 #[derive(Default)]
@@ -84,7 +84,9 @@ impl Contacts {
             x * x + y * y <= limit
         };
         let triangles = (0..mesh.triangles).into_par_iter().with_min_len(CHUNK);
-        let atoms = (3 * mesh.triangles..mesh.node_count()).into_par_iter().with_min_len(CHUNK);
+        let atoms = (3 * mesh.triangles..mesh.node_count())
+            .into_par_iter()
+            .with_min_len(CHUNK);
         triangles.all(|triangle| !self.searched[triangle] || (3 * triangle..3 * triangle + 3).all(near))
             && atoms.all(near)
     }
@@ -119,7 +121,11 @@ impl Contacts {
                 let mut sum = [0.0; 2];
                 self.for_each_partner(chunk * CHUNK + k, |[dx, dy], severed| {
                     let squared = dx * dx + dy * dy;
-                    let pull = if severed { law.repulsion(squared, spacing).slope } else { law.slope(squared) };
+                    let pull = if severed {
+                        law.repulsion(squared, spacing).slope
+                    } else {
+                        law.slope(squared)
+                    };
                     sum = [sum[0] + pull * dx, sum[1] + pull * dy];
                 });
                 [x[k], y[k]] = sum;
@@ -149,14 +155,17 @@ impl Contacts {
         let [x, y] = [self.position[0][site], self.position[1][site]];
         for &partner in &self.partners[self.start[site] as usize..self.start[site + 1] as usize] {
             let other = partner.site();
-            call([self.position[0][other] - x, self.position[1][other] - y], partner.severed());
+            call(
+                [self.position[0][other] - x, self.position[1][other] - y],
+                partner.severed(),
+            );
         }
     }
 
     /// What a pair is worth, bonded or severed.
     pub fn value(&self, material: &Material, squared: f64, severed: bool) -> PairValue {
         if severed {
-            crate::with_law!(material.interaction, law => law.repulsion(squared, self.spacing))
+            with_law!(material.interaction, law => law.repulsion(squared, self.spacing))
         } else {
             material.interaction.evaluate(squared)
         }
@@ -165,7 +174,7 @@ impl Contacts {
     /// Second derivative of a pair's energy with its distance, bonded or severed.
     pub fn curvature(&self, material: &Material, distance: f64, severed: bool) -> f64 {
         if severed {
-            crate::with_law!(material.interaction, law => law.repulsion_curvature(distance, self.spacing))
+            with_law!(material.interaction, law => law.repulsion_curvature(distance, self.spacing))
         } else {
             material.interaction.curvature(distance)
         }

@@ -84,7 +84,10 @@ impl<'a> Pair<'a> {
             }
         }
         let difference = squared_difference.sqrt();
-        let gap = self.squared_gap(self.anchors[0]).max(self.squared_gap(self.anchors[1])).sqrt();
+        let gap = self
+            .squared_gap(self.anchors[0])
+            .max(self.squared_gap(self.anchors[1]))
+            .sqrt();
         let stretch = smallest_stretch(second) - LEVER * difference;
         let spacing = limit.spacing;
         let displaced = gap + difference * spacing;
@@ -101,7 +104,10 @@ impl<'a> Pair<'a> {
     #[inline(always)]
     fn squared_gap(&self, anchor: [i32; 2]) -> f64 {
         let site = [self.first.column + anchor[0], self.first.row + anchor[1]];
-        let [a, b] = [self.first_map.at(self.first.local(site)), self.second_map.at(self.second.local(site))];
+        let [a, b] = [
+            self.first_map.at(self.first.local(site)),
+            self.second_map.at(self.second.local(site)),
+        ];
         let [x, y] = [b[0] - a[0], b[1] - a[1]];
         x * x + y * y
     }
@@ -110,7 +116,10 @@ impl<'a> Pair<'a> {
     #[inline(always)]
     pub fn string_vectors(&self, string: &BondString) -> [[f64; 2]; 2] {
         let [a, b] = [self.first_map.at(string.first), self.second_map.at(string.second)];
-        let [da, db] = [self.first_map.vector(string.first_step), self.second_map.vector(string.second_step)];
+        let [da, db] = [
+            self.first_map.vector(string.first_step),
+            self.second_map.vector(string.second_step),
+        ];
         [[b[0] - a[0], b[1] - a[1]], [db[0] - da[0], db[1] - da[1]]]
     }
 
@@ -134,7 +143,10 @@ impl<'a> Pair<'a> {
             first.add(string.first, string.first_step, sum, moment, 1.0);
             second.add(string.second, string.second_step, sum, moment, -1.0);
         }
-        InterfaceForce { first: first.on_nodes(self.first.size), second: second.on_nodes(self.second.size) }
+        InterfaceForce {
+            first: first.on_nodes(self.first.size),
+            second: second.on_nodes(self.second.size),
+        }
     }
 }
 

@@ -48,7 +48,10 @@ impl Forces {
                 part
             })
             .collect();
-        let mut total = Measure { virial: Vec::with_capacity(self.mesh.elements.len()), ..Measure::default() };
+        let mut total = Measure {
+            virial: Vec::with_capacity(self.mesh.elements.len()),
+            ..Measure::default()
+        };
         for part in parts {
             total.energy += part.energy;
             total.pairs += part.pairs;
@@ -69,9 +72,17 @@ impl Forces {
             };
             let value = self.contacts.value(&self.material, squared, severed);
             part.energy += share * value.energy;
-            part.pairs += if squared < squared_cutoff && !severed { share } else { 0.0 };
+            part.pairs += if squared < squared_cutoff && !severed {
+                share
+            } else {
+                0.0
+            };
             let pull = share * value.slope;
-            virial = [virial[0] + pull * x * x, virial[1] + pull * y * y, virial[2] + pull * x * y];
+            virial = [
+                virial[0] + pull * x * x,
+                virial[1] + pull * y * y,
+                virial[2] + pull * x * y,
+            ];
         });
         virial
     }
@@ -85,16 +96,29 @@ impl Forces {
             let affine = Affine::of_triangle(shape.size, self.mesh.first_node(element), position);
             for bond in self.bulk.within(shape.size, &affine, self.material.spacing, cutoff) {
                 let kind = BondKind::Inside { local: bond.local };
-                call(Bond { vector: affine.vector(bond.local), count: bond.count, kind });
+                call(Bond {
+                    vector: affine.vector(bond.local),
+                    count: bond.count,
+                    kind,
+                });
             }
-            for &number in self.interfaces.of(element).iter().filter(|&&number| !self.is_open(number as usize)) {
+            for &number in self
+                .interfaces
+                .of(element)
+                .iter()
+                .filter(|&&number| !self.is_open(number as usize))
+            {
                 self.for_each_string_bond(element, number as usize, position, &mut call);
             }
         }
         for site in self.contacts.sites_of(element) {
             let local = self.contacts.local(site);
             self.contacts.for_each_partner(site, |vector, severed| {
-                call(Bond { vector, count: 1.0, kind: BondKind::Across { local, severed } });
+                call(Bond {
+                    vector,
+                    count: 1.0,
+                    kind: BondKind::Across { local, severed },
+                });
             });
         }
     }
@@ -113,7 +137,11 @@ impl Forces {
                 let along = f64::from(t);
                 let vector = [start[0] + along * step[0], start[1] + along * step[1]];
                 let local = [site[0] + t * site_step[0], site[1] + t * site_step[1]];
-                call(Bond { vector, count: 1.0, kind: BondKind::Across { local, severed: false } });
+                call(Bond {
+                    vector,
+                    count: 1.0,
+                    kind: BondKind::Across { local, severed: false },
+                });
             }
         }
     }

@@ -4,8 +4,7 @@ use super::Planes;
 use super::affine::site_position;
 use crate::material::Material;
 use crate::mesh::Mesh;
-use crate::potential::PairValue;
-use crate::with_law;
+use crate::potential::{PairValue, with_law};
 
 /// What the sum over all site pairs gives.
 #[derive(Clone, Debug, PartialEq)]
@@ -31,8 +30,11 @@ pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes) -
     let place = |&(element, local): &(usize, [i32; 2])| site_position(mesh, element, local, position);
     let placed: Vec<[f64; 2]> = carried.iter().map(place).collect();
     let mut site_force = vec![[0.0; 2]; sites.len()];
-    let mut reference =
-        Reference { energy: 0.0, force: [vec![0.0; mesh.node_count()], vec![0.0; mesh.node_count()]], pairs: 0.0 };
+    let mut reference = Reference {
+        energy: 0.0,
+        force: [vec![0.0; mesh.node_count()], vec![0.0; mesh.node_count()]],
+        pairs: 0.0,
+    };
     for a in 0..sites.len() {
         for b in a + 1..sites.len() {
             let vector = [placed[b][0] - placed[a][0], placed[b][1] - placed[a][1]];

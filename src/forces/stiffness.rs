@@ -23,7 +23,12 @@ impl Forces {
             elements.fold(0.0, |largest: f64, element| {
                 let stiffness = self.element_stiffness(element, position);
                 let nodes = self.mesh.elements[element].node_count();
-                largest.max(largest_eigenvalue(&stiffness, nodes, masses[self.mesh.first_node(element)], largest))
+                largest.max(largest_eigenvalue(
+                    &stiffness,
+                    nodes,
+                    masses[self.mesh.first_node(element)],
+                    largest,
+                ))
             })
         };
         Ok((0..chunks).into_par_iter().map(of_chunk).reduce(|| 0.0, f64::max))
@@ -42,7 +47,10 @@ impl Forces {
                 }
                 BondKind::Across { local, severed } => {
                     let [along, across] = self.bond_stiffness(&bond, severed);
-                    (shape.shape_functions(local), [2.0 * along.max(0.0), 2.0 * across.max(0.0)])
+                    (
+                        shape.shape_functions(local),
+                        [2.0 * along.max(0.0), 2.0 * across.max(0.0)],
+                    )
                 }
             };
             let hessian = hessian(bond.vector, stiffnesses);
@@ -74,12 +82,18 @@ impl Forces {
 fn hessian([x, y]: [f64; 2], [along, across]: [f64; 2]) -> [[f64; 2]; 2] {
     let difference = (along - across) / (x * x + y * y);
     let mixed = difference * x * y;
-    [[across + difference * x * x, mixed], [mixed, across + difference * y * y]]
+    [
+        [across + difference * x * x, mixed],
+        [mixed, across + difference * y * y],
+    ]
 }
 
 /// Largest eigenvalue over the mass; where the sum over a row shows that it is no larger than `known`, that instead.
 fn largest_eigenvalue(stiffness: &Matrix6<f64>, nodes: usize, mass: f64, known: f64) -> f64 {
-    let row_sum = stiffness.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>()).fold(0.0, f64::max);
+    let row_sum = stiffness
+        .row_iter()
+        .map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>())
+        .fold(0.0, f64::max);
     if row_sum <= known * mass {
         return known;
     }

@@ -14,7 +14,10 @@ pub const NEAREST: [[i32; 2]; 3] = [[1, 0], [0, 1], [-1, 1]];
 /// Position of the lattice vector (i, j) in units of the lattice spacing.
 #[inline(always)]
 pub fn position(vector: [i32; 2]) -> [f64; 2] {
-    [f64::from(vector[0]) + 0.5 * f64::from(vector[1]), f64::from(vector[1]) * ROW_HEIGHT]
+    [
+        f64::from(vector[0]) + 0.5 * f64::from(vector[1]),
+        f64::from(vector[1]) * ROW_HEIGHT,
+    ]
 }
 
 /// Squared length of a lattice vector in units of the squared lattice spacing; an integer (the Loeschian numbers).
@@ -38,13 +41,20 @@ pub fn vectors_within(radius: f64) -> Vec<[i32; 2]> {
 
 /// One of each pair of opposite vectors of [`vectors_within`]: the one that points up, or right along a row.
 pub fn half_vectors_within(radius: f64) -> Vec<[i32; 2]> {
-    vectors_within(radius).into_iter().filter(|&[i, j]| j > 0 || (j == 0 && i > 0)).collect()
+    vectors_within(radius)
+        .into_iter()
+        .filter(|&[i, j]| j > 0 || (j == 0 && i > 0))
+        .collect()
 }
 
 /// Length, in spacings, of the shortest lattice vectors longer than `radius` spacings.
 pub fn next_length(radius: f64) -> f64 {
-    let longer = vectors_within(radius + 2.0).into_iter().map(|vector| f64::from(squared_length(vector)).sqrt());
-    longer.filter(|&length| length > radius * (1.0 + 1e-12)).fold(f64::INFINITY, f64::min)
+    let longer = vectors_within(radius + 2.0)
+        .into_iter()
+        .map(|vector| f64::from(squared_length(vector)).sqrt());
+    longer
+        .filter(|&length| length > radius * (1.0 + 1e-12))
+        .fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

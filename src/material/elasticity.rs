@@ -15,7 +15,11 @@ impl Elasticity {
     pub fn of(material: &Material) -> Self {
         let spacing = material.spacing;
         let area = triangular::SITE_AREA * spacing * spacing;
-        let mut constants = Self { c11: 0.0, c12: 0.0, c66: 0.0 };
+        let mut constants = Self {
+            c11: 0.0,
+            c12: 0.0,
+            c66: 0.0,
+        };
         for bond in triangular::half_vectors_within(material.interaction.cutoff() / spacing) {
             let [x, y] = triangular::position(bond).map(|component| component * spacing);
             let squared = x * x + y * y;
@@ -52,7 +56,11 @@ impl WaveSpeeds {
         let constants = Elasticity::of(material);
         let longitudinal = (constants.c11 / material.density()).sqrt();
         let transverse = (constants.c66 / material.density()).sqrt();
-        Self { longitudinal, transverse, rayleigh: rayleigh_speed(longitudinal, transverse) }
+        Self {
+            longitudinal,
+            transverse,
+            rayleigh: rayleigh_speed(longitudinal, transverse),
+        }
     }
 }
 
@@ -66,7 +74,11 @@ fn rayleigh_speed(longitudinal: f64, transverse: f64) -> f64 {
     let [mut low, mut high] = [0.5, 1.0 - 1e-12];
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
-        if excess(middle) < 0.0 { low = middle } else { high = middle }
+        if excess(middle) < 0.0 {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     0.5 * (low + high) * transverse
 }

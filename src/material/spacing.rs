@@ -26,7 +26,11 @@ fn bisect(interaction: &Interaction, mut low: f64, mut high: f64) -> f64 {
         if middle <= low || middle >= high {
             break;
         }
-        if slope(interaction, middle) < 0.0 { low = middle } else { high = middle }
+        if slope(interaction, middle) < 0.0 {
+            low = middle
+        } else {
+            high = middle
+        }
     }
     high
 }
@@ -38,15 +42,22 @@ fn energy(interaction: &Interaction, spacing: f64) -> f64 {
 
 /// Derivative of the energy with the logarithm of the spacing.
 fn slope(interaction: &Interaction, spacing: f64) -> f64 {
-    sum(interaction, spacing, |squared| interaction.evaluate(squared).slope * squared)
+    sum(interaction, spacing, |squared| {
+        interaction.evaluate(squared).slope * squared
+    })
 }
 
 /// What the slope is compared with: the second derivative, without its sign.
 fn scale(interaction: &Interaction, spacing: f64) -> f64 {
-    sum(interaction, spacing, |squared| (interaction.curvature(squared.sqrt()) * squared).abs())
+    sum(interaction, spacing, |squared| {
+        (interaction.curvature(squared.sqrt()) * squared).abs()
+    })
 }
 
 fn sum(interaction: &Interaction, spacing: f64, term: impl Fn(f64) -> f64) -> f64 {
     let bonds = triangular::half_vectors_within(interaction.cutoff() / spacing);
-    bonds.into_iter().map(|bond| term(f64::from(triangular::squared_length(bond)) * spacing * spacing)).sum()
+    bonds
+        .into_iter()
+        .map(|bond| term(f64::from(triangular::squared_length(bond)) * spacing * spacing))
+        .sum()
 }

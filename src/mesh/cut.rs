@@ -33,7 +33,11 @@ mod tests {
 
     #[test]
     fn a_pair_is_severed_where_its_line_crosses_the_cut_and_only_there() {
-        let cut = Cut { row: 10, from: -10.0, to: 20.0 };
+        let cut = Cut {
+            row: 10,
+            from: -10.0,
+            to: 20.0,
+        };
         assert!(cut.severs([0, 9], [0, 10]));
         assert!(cut.severs([0, 10], [0, 9]), "in either order");
         assert!(!cut.severs([0, 9], [1, 9]) && !cut.severs([3, 10], [3, 11]));

@@ -16,7 +16,12 @@ pub struct Element {
 
 impl Element {
     pub fn atom([column, row]: [i32; 2]) -> Self {
-        Self { size: 1, sign: 1, column, row }
+        Self {
+            size: 1,
+            sign: 1,
+            column,
+            row,
+        }
     }
 
     pub fn is_atom(&self) -> bool {
@@ -67,7 +72,10 @@ impl Element {
         if self.is_atom() {
             vec![self.site([0, 0])]
         } else {
-            [[0, 0], [last, 0], [0, last]].into_iter().map(|local| self.site(local)).collect()
+            [[0, 0], [last, 0], [0, last]]
+                .into_iter()
+                .map(|local| self.site(local))
+                .collect()
         }
     }
 
@@ -89,7 +97,11 @@ impl Element {
 
     /// Lowest row of the element.
     pub fn lowest_row(&self) -> i32 {
-        if self.sign > 0 { self.row } else { self.row - self.size + 1 }
+        if self.sign > 0 {
+            self.row
+        } else {
+            self.row - self.size + 1
+        }
     }
 
     /// Leftmost column of the lowest row.
@@ -106,7 +118,12 @@ mod tests {
     fn the_55_site_triangle_has_mass_55_thirds_a_node_in_either_orientation() {
         // [Deng2011] Eq. (3-29): the lumped mass is the sum of the shape functions over the sites.
         for sign in [1, -1] {
-            let element = Element { size: 10, sign, column: 3, row: -2 };
+            let element = Element {
+                size: 10,
+                sign,
+                column: 3,
+                row: -2,
+            };
             let mut mass = [0.0; 3];
             for local in element.locals() {
                 let shape = element.shape_functions(local);
@@ -121,8 +138,13 @@ mod tests {
 
     #[test]
     fn shape_functions_interpolate_lattice_positions() {
-        // [Deng2011] Eq. (3-27): x_a = sum_i N_i(a) X_i reproduces any affine field.
-        let element = Element { size: 7, sign: -1, column: 5, row: 9 };
+        // [Deng2011] Eq. (3-27) on Fig. 3-6: x_a = sum_i N_i(a) X_i reproduces any affine field.
+        let element = Element {
+            size: 7,
+            sign: -1,
+            column: 5,
+            row: 9,
+        };
         let corners = element.corners();
         for local in element.locals() {
             let shape = element.shape_functions(local);

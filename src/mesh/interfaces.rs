@@ -64,7 +64,10 @@ impl Interfaces {
     pub fn new(mesh: &Mesh, bond_length: f64) -> Self {
         let bonds = triangular::vectors_within(bond_length);
         let around = triangular::vectors_within(REACH.max(bond_length));
-        let mut found = Self { exposed: vec![false; mesh.triangles], ..Self::default() };
+        let mut found = Self {
+            exposed: vec![false; mesh.triangles],
+            ..Self::default()
+        };
         let mut kinds: HashMap<KindKey, u32> = HashMap::new();
         let mut neighbours = Vec::new();
         for (number, element) in mesh.elements[..mesh.triangles].iter().enumerate() {
@@ -84,7 +87,12 @@ impl Interfaces {
                     found.kinds.len() as u32 - 1
                 });
                 let severed = is_severed(mesh, element, second, &around);
-                found.pairs.push(Interface { first: number as u32, second: other, kind, severed });
+                found.pairs.push(Interface {
+                    first: number as u32,
+                    second: other,
+                    kind,
+                    severed,
+                });
             }
         }
         found.index_by_triangle(mesh.triangles);
@@ -124,7 +132,9 @@ impl Interfaces {
     pub fn between(&self, a: usize, b: usize) -> Option<usize> {
         let (first, second) = (a.min(b) as u32, a.max(b) as u32);
         let candidates = self.of(a).iter().map(|&number| number as usize);
-        candidates.into_iter().find(|&number| self.pairs[number].first == first && self.pairs[number].second == second)
+        candidates
+            .into_iter()
+            .find(|&number| self.pairs[number].first == first && self.pairs[number].second == second)
     }
 
     pub fn strings(&self, interface: usize) -> &[BondString] {
@@ -142,7 +152,10 @@ fn collect_neighbours(
 ) -> bool {
     neighbours.clear();
     let mut exposed = false;
-    for local in element.locals().filter(|&[p, q]| p == 0 || q == 0 || p + q == element.size - 1) {
+    for local in element
+        .locals()
+        .filter(|&[p, q]| p == 0 || q == 0 || p + q == element.size - 1)
+    {
         let site = element.site(local);
         for vector in around {
             let other_site = [site[0] + vector[0], site[1] + vector[1]];
@@ -169,21 +182,31 @@ fn is_severed(mesh: &Mesh, first: &Element, second: &Element, around: &[[i32; 2]
     if !near(first) || !near(second) {
         return false;
     }
-    let pairs = first.sites().flat_map(|site| around.iter().map(move |v| (site, [site[0] + v[0], site[1] + v[1]])));
+    let pairs = first
+        .sites()
+        .flat_map(|site| around.iter().map(move |v| (site, [site[0] + v[0], site[1] + v[1]])));
     pairs.into_iter().any(|(a, b)| second.contains(b) && cut.severs(a, b))
 }
 
 impl InterfaceKind {
     fn between(first: &Element, second: &Element, bonds: &[[i32; 2]]) -> Self {
-        let strings = bonds.iter().flat_map(|&bond| strings_along(first, second, bond)).collect();
-        Self { strings, anchors: facing_sites(first, second) }
+        let strings = bonds
+            .iter()
+            .flat_map(|&bond| strings_along(first, second, bond))
+            .collect();
+        Self {
+            strings,
+            anchors: facing_sites(first, second),
+        }
     }
 }
 
 /// Groups the bonds of one lattice vector into straight runs along that close-packed direction which gives the fewest.
 fn strings_along(first: &Element, second: &Element, bond: [i32; 2]) -> Vec<BondString> {
-    let ends: Vec<[i32; 2]> =
-        first.locals().filter(|&local| second.contains(shift(first.site(local), bond, 1))).collect();
+    let ends: Vec<[i32; 2]> = first
+        .locals()
+        .filter(|&local| second.contains(shift(first.site(local), bond, 1)))
+        .collect();
     let runs = triangular::NEAREST.map(|direction| runs_along(&ends, direction));
     let fewest = runs.into_iter().min_by_key(Vec::len).unwrap_or_default();
     let string = |(start, step, count): ([i32; 2], [i32; 2], i32)| {
@@ -203,9 +226,13 @@ fn strings_along(first: &Element, second: &Element, bond: [i32; 2]) -> Vec<BondS
 
 /// Maximal runs of sites along a direction: start, step, count.
 fn runs_along(sites: &[[i32; 2]], direction: [i32; 2]) -> Vec<([i32; 2], [i32; 2], i32)> {
-    let starts = sites.iter().filter(|&&site| !sites.contains(&shift(site, direction, -1)));
+    let starts = sites
+        .iter()
+        .filter(|&&site| !sites.contains(&shift(site, direction, -1)));
     let run = |&start: &[i32; 2]| {
-        let count = (1..).find(|&t| !sites.contains(&shift(start, direction, t))).expect("a triangle ends");
+        let count = (1..)
+            .find(|&t| !sites.contains(&shift(start, direction, t)))
+            .expect("a triangle ends");
         (start, direction, count)
     };
     starts.map(run).collect()
@@ -234,8 +261,19 @@ mod tests {
     use super::*;
 
     fn mesh(element: u16, crack_length: Option<f64>) -> Mesh {
-        let layout = Layout { block: 10, rows: 6, triangles: 13 };
-        Mesh::new(&Plan { layout, element, regions: vec![], crack_length, grip_rows: 10, spacing: 1.0 })
+        let layout = Layout {
+            block: 10,
+            rows: 6,
+            triangles: 13,
+        };
+        Mesh::new(&Plan {
+            layout,
+            element,
+            regions: vec![],
+            crack_length,
+            grip_rows: 10,
+            spacing: 1.0,
+        })
     }
 
     #[test]
@@ -246,7 +284,10 @@ mod tests {
         let counts: Vec<i32> = (0..interfaces.pairs.len()).map(bonds).collect();
         assert!(counts.iter().all(|count| [0, 1, 19].contains(count)), "{counts:?}");
         // All bonds of the site set: those inside elements and those across, found site by site.
-        let across = mesh.sites.iter().flat_map(|a| triangular::NEAREST.map(|v| (a, [a[0] + v[0], a[1] + v[1]])));
+        let across = mesh
+            .sites
+            .iter()
+            .flat_map(|a| triangular::NEAREST.map(|v| (a, [a[0] + v[0], a[1] + v[1]])));
         let across = across.filter(|&(a, b)| mesh.owner_of(b).is_some_and(|owner| Some(owner) != mesh.owner_of(a)));
         assert_eq!(counts.iter().sum::<i32>() as usize, across.count());
         // An interior triangle: three edges of 19 bonds, three corner bonds; half of each belongs to it.
@@ -275,7 +316,10 @@ mod tests {
             }
             let triangle = |site| mesh.owner_of(site).filter(|&owner| owner < mesh.triangles);
             let half = triangular::half_vectors_within(2.4);
-            let across = mesh.sites.iter().flat_map(|a| half.iter().map(move |v| (a, shift(a, *v, 1))));
+            let across = mesh
+                .sites
+                .iter()
+                .flat_map(|a| half.iter().map(move |v| (a, shift(a, *v, 1))));
             let expected = across.filter(|&(a, b)| match (triangle(a), triangle(b)) {
                 (Some(first), Some(second)) => first != second,
                 _ => false,

@@ -22,7 +22,11 @@ impl Layout {
     pub fn nearest(length: f64, height: f64, block: i32) -> Self {
         let rows = (height / (f64::from(block) * triangular::ROW_HEIGHT)).round() as i32;
         let cells = (length / f64::from(block + 1)).round() as i32;
-        Self { block, rows, triangles: 2 * cells - 1 }
+        Self {
+            block,
+            rows,
+            triangles: 2 * cells - 1,
+        }
     }
 
     pub fn lattice_rows(&self) -> i32 {
@@ -133,7 +137,11 @@ mod tests {
 
     #[test]
     fn a_specimen_has_as_many_sites_as_its_triangles_and_straight_sides() {
-        let layout = Layout { block: 10, rows: 6, triangles: 9 };
+        let layout = Layout {
+            block: 10,
+            rows: 6,
+            triangles: 9,
+        };
         let sites = SiteSet::new(layout);
         assert_eq!(sites.len() as u64, layout.site_count());
         assert_eq!(sites.iter().count(), sites.len());
@@ -142,7 +150,10 @@ mod tests {
         }
         for row in 0..2 {
             let [x_low, x_high] = [row, row + 20].map(|r| triangular::position([sites.columns(r).start, r])[0]);
-            assert_eq!(x_low, x_high, "two element rows further the sides stand where they stood");
+            assert_eq!(
+                x_low, x_high,
+                "two element rows further the sides stand where they stood"
+            );
         }
         assert_eq!(sites.index([sites.columns(5).end, 5]), None);
         assert_eq!(sites.index([0, 60]), None);

@@ -10,7 +10,13 @@ use super::sites::SiteSet;
 /// all its sites to the finer one, so that the border of a region runs along elements. No element crosses a row
 /// boundary in `breaks` (ascending, from 0 to the number of rows).
 pub fn tile(sites: &SiteSet, target: Vec<u16>, breaks: &[i32]) -> Vec<Element> {
-    let mut tiling = Tiling { sites, target, covered: vec![false; sites.len()], breaks, elements: Vec::new() };
+    let mut tiling = Tiling {
+        sites,
+        target,
+        covered: vec![false; sites.len()],
+        breaks,
+        elements: Vec::new(),
+    };
     let mut sizes: Vec<i32> = tiling.target.iter().map(|&size| i32::from(size)).collect();
     sizes.dedup();
     sizes.sort_unstable_by(|a, b| b.cmp(a));
@@ -61,15 +67,31 @@ impl Tiling<'_> {
         let last = (low.end.max(high.end) - anchor).div_euclid(size + 1) + 1;
         for cell in first..=last {
             let column = anchor + cell * (size + 1);
-            self.place(Element { size, sign: 1, column, row });
-            self.place(Element { size, sign: -1, column: column + size, row: top });
+            self.place(Element {
+                size,
+                sign: 1,
+                column,
+                row,
+            });
+            self.place(Element {
+                size,
+                sign: -1,
+                column: column + size,
+                row: top,
+            });
         }
     }
 
     /// Places a triangle if all its sites are free and none wants a finer element; in the latter case all do then.
     fn place(&mut self, element: Element) -> bool {
-        let Some(numbers) = self.free_sites(&element) else { return false };
-        let finest = numbers.iter().map(|&site| self.target[site]).min().expect("an element has sites");
+        let Some(numbers) = self.free_sites(&element) else {
+            return false;
+        };
+        let finest = numbers
+            .iter()
+            .map(|&site| self.target[site])
+            .min()
+            .expect("an element has sites");
         if i32::from(finest) < element.size {
             for &site in &numbers {
                 if i32::from(self.target[site]) >= element.size {
@@ -87,11 +109,18 @@ impl Tiling<'_> {
         let free: Vec<[i32; 2]> = self.wanting(size).collect();
         for [column, row] in free {
             for sign in [1, -1] {
-                let element = Element { size, sign, column, row };
+                let element = Element {
+                    size,
+                    sign,
+                    column,
+                    row,
+                };
                 if self.crosses_a_break(&element) {
                     continue;
                 }
-                let Some(numbers) = self.free_sites(&element) else { continue };
+                let Some(numbers) = self.free_sites(&element) else {
+                    continue;
+                };
                 if numbers.iter().all(|&site| i32::from(self.target[site]) >= size) {
                     self.cover(element, &numbers);
                 }
@@ -107,11 +136,16 @@ impl Tiling<'_> {
     /// Free sites that allow elements of this size.
     fn wanting(&self, size: i32) -> impl Iterator<Item = [i32; 2]> + '_ {
         let numbered = self.sites.iter().enumerate();
-        numbered.filter(move |&(n, _)| !self.covered[n] && i32::from(self.target[n]) >= size).map(|(_, site)| site)
+        numbered
+            .filter(move |&(n, _)| !self.covered[n] && i32::from(self.target[n]) >= size)
+            .map(|(_, site)| site)
     }
 
     fn free_sites(&self, element: &Element) -> Option<Vec<usize>> {
-        let corners_inside = element.corners().into_iter().all(|corner| self.sites.index(corner).is_some());
+        let corners_inside = element
+            .corners()
+            .into_iter()
+            .all(|corner| self.sites.index(corner).is_some());
         if !corners_inside {
             return None;
         }

@@ -42,7 +42,14 @@ impl<S: PairShape> CutPotential<S> {
             AtCutoff::Shifted => (f64::INFINITY, energy_at_cutoff),
             AtCutoff::Smooth { from } => (from * from, 0.0),
         };
-        Self { shape, at_cutoff, cutoff, squared_cutoff: cutoff * cutoff, squared_switch, shift }
+        Self {
+            shape,
+            at_cutoff,
+            cutoff,
+            squared_cutoff: cutoff * cutoff,
+            squared_switch,
+            shift,
+        }
     }
 
     pub fn cutoff(&self) -> f64 {
@@ -64,7 +71,10 @@ impl<S: PairShape> CutPotential<S> {
         if squared_distance > self.squared_switch {
             return self.switched(squared_distance, energy, slope);
         }
-        PairValue { energy: energy - self.shift, slope }
+        PairValue {
+            energy: energy - self.shift,
+            slope,
+        }
     }
 
     /// phi'/r alone; zero from the cutoff on.
@@ -77,12 +87,17 @@ impl<S: PairShape> CutPotential<S> {
     fn switched(&self, squared_distance: f64, energy: f64, slope: f64) -> PairValue {
         let distance = squared_distance.sqrt();
         let [factor, derivative, _] = self.switch(distance);
-        PairValue { energy: energy * factor, slope: slope * factor + energy * derivative / distance }
+        PairValue {
+            energy: energy * factor,
+            slope: slope * factor + energy * derivative / distance,
+        }
     }
 
     /// The switching factor and its first two derivatives.
     fn switch(&self, distance: f64) -> [f64; 3] {
-        let AtCutoff::Smooth { from } = self.at_cutoff else { return [1.0, 0.0, 0.0] };
+        let AtCutoff::Smooth { from } = self.at_cutoff else {
+            return [1.0, 0.0, 0.0];
+        };
         if distance <= from {
             return [1.0, 0.0, 0.0];
         }
@@ -116,13 +131,20 @@ impl<S: PairShape> CutPotential<S> {
         let scale = (minimum / spacing) * (minimum / spacing);
         let (energy, slope) = self.shape.energy_and_slope(squared_distance * scale);
         let (well, _) = self.shape.energy_and_slope(minimum * minimum);
-        PairValue { energy: energy - well, slope: slope * scale }
+        PairValue {
+            energy: energy - well,
+            slope: slope * scale,
+        }
     }
 
     /// Second derivative of the repulsion.
     pub fn repulsion_curvature(&self, distance: f64, spacing: f64) -> f64 {
         let scale = self.shape.minimum() / spacing;
-        if distance < spacing { scale * scale * self.shape.curvature(distance * scale) } else { 0.0 }
+        if distance < spacing {
+            scale * scale * self.shape.curvature(distance * scale)
+        } else {
+            0.0
+        }
     }
 
     /// What one pair's energy jumps by when it comes within the cutoff.
@@ -145,7 +167,10 @@ mod tests {
 
     /// Central differences with a step of 1e-5 leave step^2/6 of the third derivative, which reaches 1e4 in the switch.
     const DIFFERENCE_ERROR: f64 = 1e-6;
-    const LJ: LennardJones = LennardJones { epsilon: 1.0, sigma: 1.0 };
+    const LJ: LennardJones = LennardJones {
+        epsilon: 1.0,
+        sigma: 1.0,
+    };
 
     fn check_derivatives<S: PairShape>(shape: S, cutoff: f64, from: f64) {
         for at_cutoff in [AtCutoff::Truncated, AtCutoff::Shifted, AtCutoff::Smooth { from }] {
@@ -157,8 +182,14 @@ mod tests {
                 let step = 1e-5;
                 let first = (energy(r + step) - energy(r - step)) / (2.0 * step);
                 let second = (force(r + step) - force(r - step)) / (2.0 * step);
-                assert!((first - force(r)).abs() < DIFFERENCE_ERROR * (1.0 + first.abs()), "{shape:?} {at_cutoff:?} {r}");
-                assert!((second - law.curvature(r)).abs() < DIFFERENCE_ERROR * (1.0 + second.abs()), "{at_cutoff:?} {r}");
+                assert!(
+                    (first - force(r)).abs() < DIFFERENCE_ERROR * (1.0 + first.abs()),
+                    "{shape:?} {at_cutoff:?} {r}"
+                );
+                assert!(
+                    (second - law.curvature(r)).abs() < DIFFERENCE_ERROR * (1.0 + second.abs()),
+                    "{at_cutoff:?} {r}"
+                );
             }
             assert_eq!(law.evaluate(cutoff * cutoff), PairValue::default());
         }
@@ -167,8 +198,23 @@ mod tests {
     #[test]
     fn slopes_and_curvatures_are_the_derivatives_of_the_energy_for_every_cutoff() {
         check_derivatives(LJ, 1.9, 1.5);
-        check_derivatives(Morse { depth: 1.0, decay: 5.0, distance: 1.1 }, 1.8, 1.5);
-        check_derivatives(HarmonicBond { stiffness: 60.0, distance: 1.1 }, 1.4, 1.25);
+        check_derivatives(
+            Morse {
+                depth: 1.0,
+                decay: 5.0,
+                distance: 1.1,
+            },
+            1.8,
+            1.5,
+        );
+        check_derivatives(
+            HarmonicBond {
+                stiffness: 60.0,
+                distance: 1.1,
+            },
+            1.4,
+            1.25,
+        );
     }
 
     #[test]

@@ -12,7 +12,10 @@ impl PairShape for HarmonicBond {
     fn energy_and_slope(&self, squared_distance: f64) -> (f64, f64) {
         let distance = squared_distance.sqrt();
         let stretch = distance - self.distance;
-        (0.5 * self.stiffness * stretch * stretch, self.stiffness * stretch / distance)
+        (
+            0.5 * self.stiffness * stretch * stretch,
+            self.stiffness * stretch / distance,
+        )
     }
 
     fn curvature(&self, _distance: f64) -> f64 {

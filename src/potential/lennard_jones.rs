@@ -1,6 +1,6 @@
 use super::PairShape;
 
-/// phi(r) = 4 epsilon ((sigma/r)^12 - (sigma/r)^6), the material of [Deng2011] chapters 4 to 6.
+/// phi(r) = 4 epsilon ((sigma/r)^12 - (sigma/r)^6), the source's material in chapters 4 to 6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LennardJones {
     pub epsilon: f64,

@@ -6,11 +6,11 @@ use std::path::{Path, PathBuf};
 use hdf5::Group;
 use ndarray::s;
 
-use crate::units::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
 use super::arrays::{get, get_column};
 use super::frames::{FieldMesh, Frame};
 use super::mesh::get_mesh;
 use super::{RecordError, file};
+use crate::units::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
 
 /// Mesh and frames of a published file. The mesh is read to the bit, the frames to single precision.
 pub fn read_fields(path: &Path) -> Result<(FieldMesh, FrameReader), RecordError> {

@@ -41,11 +41,18 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
     let stability_limit = stability_limit(&mesh, &material)?;
     let time_step = time_step(case).choose(stability_limit)?;
     let case::Loading::StrainRate { rate, .. } = case.loading;
-    let until = Until { strain: case.run.until.strain, time: case.run.until.time, ..Until::default() };
+    let until = Until {
+        strain: case.run.until.strain,
+        time: case.run.until.time,
+        ..Until::default()
+    };
     let steps = until.steps(0, 0.0, time_step, rate);
     let atoms = mesh.elements.len() - mesh.triangles;
     let triangle = |size: i32| SECONDS_A_TRIANGLE + SECONDS_AN_EDGE_SITE * 3.0 * f64::from(size);
-    let coarse: f64 = mesh.elements[..mesh.triangles].iter().map(|element| triangle(element.size)).sum();
+    let coarse: f64 = mesh.elements[..mesh.triangles]
+        .iter()
+        .map(|element| triangle(element.size))
+        .sum();
     Ok(Estimate {
         nodes: mesh.node_count() as u64,
         elements: mesh.elements.len() as u64,
@@ -66,9 +73,20 @@ fn stability_limit(mesh: &Mesh, material: &Material) -> Result<f64, SolverError>
     sizes.dedup();
     let limits = sizes.into_iter().map(|size| {
         let block = size.max(3);
-        let layout = Layout { block, rows: 4, triangles: 5 };
+        let layout = Layout {
+            block,
+            rows: 4,
+            triangles: 5,
+        };
         let spacing = material.spacing;
-        let plan = Plan { layout, element: size as u16, regions: vec![], crack_length: None, grip_rows: block, spacing };
+        let plan = Plan {
+            layout,
+            element: size as u16,
+            regions: vec![],
+            crack_length: None,
+            grip_rows: block,
+            spacing,
+        };
         let patch = Mesh::new(&plan);
         let loading = Stretching::new(&patch, 1.0, Grip::Clamped, false);
         let settings = Settings {
@@ -81,13 +99,19 @@ fn stability_limit(mesh: &Mesh, material: &Material) -> Result<f64, SolverError>
         };
         Solver::new(patch, *material, loading, settings).map(|solver| solver.time_step()[1])
     });
-    limits.into_iter().try_fold(f64::INFINITY, |least, limit| Ok(least.min(limit?)))
+    limits
+        .into_iter()
+        .try_fold(f64::INFINITY, |least, limit| Ok(least.min(limit?)))
 }
 
 /// Share of the sites that lie in smaller elements than their region asks for.
 fn leftover_share(mesh: &Mesh, plan: &Plan) -> f64 {
-    let wanted: Vec<i32> =
-        plan.regions.iter().map(|region| i32::from(region.element)).chain([i32::from(plan.element)]).collect();
+    let wanted: Vec<i32> = plan
+        .regions
+        .iter()
+        .map(|region| i32::from(region.element))
+        .chain([i32::from(plan.element)])
+        .collect();
     let leftover = mesh.elements.iter().filter(|element| !wanted.contains(&element.size));
     leftover.map(|element| element.site_count()).sum::<usize>() as f64 / mesh.sites.len() as f64
 }
@@ -103,12 +127,18 @@ fn memory(mesh: &Mesh) -> u64 {
 pub fn refuse_what_does_not_fit(plan: &Plan) -> Result<(), SetupError> {
     const GIBIBYTE: f64 = 1_073_741_824.0;
     let sites = plan.layout.site_count();
-    let per_site = if plan.element == 1 { 330.0 } else { 12.0 + 2000.0 / f64::from(plan.element).powi(2) };
+    let per_site = if plan.element == 1 {
+        330.0
+    } else {
+        12.0 + 2000.0 / f64::from(plan.element).powi(2)
+    };
     let needed = sites as f64 * per_site / GIBIBYTE;
     match free_memory() {
-        Some(present) if needed > present / GIBIBYTE => {
-            Err(SetupError::TooLarge { sites, needed, present: present / GIBIBYTE })
-        }
+        Some(present) if needed > present / GIBIBYTE => Err(SetupError::TooLarge {
+            sites,
+            needed,
+            present: present / GIBIBYTE,
+        }),
         _ => Ok(()),
     }
 }
@@ -117,5 +147,9 @@ pub fn refuse_what_does_not_fit(plan: &Plan) -> Result<(), SetupError> {
 fn free_memory() -> Option<f64> {
     let table = std::fs::read_to_string("/proc/meminfo").ok()?;
     let line = table.lines().find(|line| line.starts_with("MemAvailable:"))?;
-    line.split_whitespace().nth(1)?.parse::<f64>().ok().map(|kibibytes| 1024.0 * kibibytes)
+    line.split_whitespace()
+        .nth(1)?
+        .parse::<f64>()
+        .ok()
+        .map(|kibibytes| 1024.0 * kibibytes)
 }

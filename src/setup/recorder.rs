@@ -24,13 +24,11 @@ pub struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    pub fn new(
-        folder: &Path,
-        case_id: String,
-        solver: &Solver,
-        tell: &'a mut (dyn FnMut(&Progress) + Send),
-    ) -> Self {
-        let part = Series { profile_x: solver.profile_x().to_vec(), ..Series::default() };
+    pub fn new(folder: &Path, case_id: String, solver: &Solver, tell: &'a mut (dyn FnMut(&Progress) + Send)) -> Self {
+        let part = Series {
+            profile_x: solver.profile_x().to_vec(),
+            ..Series::default()
+        };
         Self {
             folder: folder.to_path_buf(),
             case_id,
@@ -47,15 +45,24 @@ impl<'a> Recorder<'a> {
         record::write_segment(&self.folder, self.first_probe, &self.part)?;
         self.first_probe += self.part.probes.len() as u64;
         let profile_x = std::mem::take(&mut self.part.profile_x);
-        self.part = Series { profile_x, ..Series::default() };
+        self.part = Series {
+            profile_x,
+            ..Series::default()
+        };
         Ok(())
     }
 
     fn frame(&self, moment: &Moment) -> Frame {
-        let Moment { mesh, state, measure, .. } = moment;
+        let Moment {
+            mesh, state, measure, ..
+        } = moment;
         let planes = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(&x, &y)| [x, y]).collect();
         let shift = |axis: usize| -> Vec<f64> {
-            state.position[axis].iter().zip(&self.reference[axis]).map(|(now, then)| now - then).collect()
+            state.position[axis]
+                .iter()
+                .zip(&self.reference[axis])
+                .map(|(now, then)| now - then)
+                .collect()
         };
         let stress = mesh.elements.iter().zip(&measure.virial).map(|(element, virial)| {
             let volume = element.site_count() as f64 * self.site_volume;
@@ -125,7 +132,11 @@ fn damage(mesh: &Mesh, broken: &[[i32; 3]]) -> Vec<f64> {
             }
         }
     }
-    count.iter().zip(&mesh.elements).map(|(broken, element)| broken / bonds_of(element)).collect()
+    count
+        .iter()
+        .zip(&mesh.elements)
+        .map(|(broken, element)| broken / bonds_of(element))
+        .collect()
 }
 
 /// Nearest-neighbour bonds that touch the sites of an element: six a site, those inside counted once.

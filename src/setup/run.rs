@@ -48,7 +48,10 @@ pub fn run_case(
     warn: &mut (dyn FnMut(&str) + Send),
 ) -> Result<Finished, RunCaseError> {
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build();
-    let pool = pool.map_err(|error| RunCaseError::Threads { threads, why: error.to_string() })?;
+    let pool = pool.map_err(|error| RunCaseError::Threads {
+        threads,
+        why: error.to_string(),
+    })?;
     pool.install(|| compute(case, into, stop, tell, warn))
 }
 
@@ -88,12 +91,7 @@ fn compute(
 }
 
 /// Goes back to the folder's checkpoint, and removes what was recorded after it.
-fn resume(
-    solver: &mut Solver,
-    into: &Path,
-    id: &str,
-    warn: &mut (dyn FnMut(&str) + Send),
-) -> Result<(), RunCaseError> {
+fn resume(solver: &mut Solver, into: &Path, id: &str, warn: &mut (dyn FnMut(&str) + Send)) -> Result<(), RunCaseError> {
     let path = into.join(CHECKPOINT_FILE);
     match record::checkpoint::read(&path, id) {
         Ok(checkpoint) => {

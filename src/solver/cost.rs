@@ -20,8 +20,14 @@ pub enum Phase {
 }
 
 impl Phase {
-    pub const ALL: [Self; 6] =
-        [Self::SetUp, Self::Neighbours, Self::Forces, Self::Motion, Self::Stability, Self::Output];
+    pub const ALL: [Self; 6] = [
+        Self::SetUp,
+        Self::Neighbours,
+        Self::Forces,
+        Self::Motion,
+        Self::Stability,
+        Self::Output,
+    ];
 
     pub fn name(self) -> &'static str {
         match self {

@@ -56,7 +56,12 @@ impl Ledger {
         let cutoff_release = self.jump * (measure.pairs - self.initial_pairs);
         let imbalance = (kinetic - self.initial_kinetic + potential - self.work - cutoff_release).abs();
         self.peak_imbalance = self.peak_imbalance.max(imbalance);
-        Balance { potential, work: self.work, cutoff_release, imbalance }
+        Balance {
+            potential,
+            work: self.work,
+            cutoff_release,
+            imbalance,
+        }
     }
 
     /// Largest imbalance over the largest work, or nothing before any work is done.
@@ -71,7 +76,14 @@ impl Ledger {
             return Ok(());
         }
         let [imbalance, limit] = [self.peak_imbalance, 100.0 * Self::LIMIT];
-        Err(SolverError::EnergyAstray { step, time, strain, imbalance, put_in, limit })
+        Err(SolverError::EnergyAstray {
+            step,
+            time,
+            strain,
+            imbalance,
+            put_in,
+            limit,
+        })
     }
 
     pub fn work(&self) -> f64 {

@@ -27,8 +27,13 @@ pub fn site_volume(setting: &Setting) -> f64 {
 pub fn element_at_crack(mesh: &Mesh) -> u32 {
     let row = mesh.sites.middle_row();
     let from = mesh.cut.map_or(f64::NEG_INFINITY, |cut| cut.to);
-    let ahead = mesh.sites.columns(row).filter(|&column| triangular::position([column, row])[0] >= from);
-    let sizes = ahead.filter_map(|column| mesh.owner_of([column, row])).map(|owner| mesh.elements[owner].size);
+    let ahead = mesh
+        .sites
+        .columns(row)
+        .filter(|&column| triangular::position([column, row])[0] >= from);
+    let sizes = ahead
+        .filter_map(|column| mesh.owner_of([column, row]))
+        .map(|owner| mesh.elements[owner].size);
     sizes.max().unwrap_or(1) as u32
 }
 
@@ -42,9 +47,16 @@ pub fn bond_events(before: &[[i32; 3]], now: &[[i32; 3]], probe: u32) -> Vec<Bon
         broken,
     };
     let key = |bond: &[i32; 3]| [bond[1], bond[0], bond[2]];
-    let closed = before.iter().filter(|bond| now.binary_search_by_key(&key(bond), key).is_err());
-    let opened = now.iter().filter(|bond| before.binary_search_by_key(&key(bond), key).is_err());
-    closed.map(|&bond| event(bond, false)).chain(opened.map(|&bond| event(bond, true))).collect()
+    let closed = before
+        .iter()
+        .filter(|bond| now.binary_search_by_key(&key(bond), key).is_err());
+    let opened = now
+        .iter()
+        .filter(|bond| before.binary_search_by_key(&key(bond), key).is_err());
+    closed
+        .map(|&bond| event(bond, false))
+        .chain(opened.map(|&bond| event(bond, true)))
+        .collect()
 }
 
 /// Bins along the crack plane and the elements that fall into each.
@@ -91,6 +103,8 @@ impl ProfileLine {
             (0..3).for_each(|k| sum[k] += measure.virial[element as usize][k]);
         }
         let volume = site_volume(setting);
-        sums.into_iter().map(|(sum, count)| sum.map(|virial| virial / (count * volume))).collect()
+        sums.into_iter()
+            .map(|(sum, count)| sum.map(|virial| virial / (count * volume)))
+            .collect()
     }
 }

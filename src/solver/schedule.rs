@@ -11,7 +11,11 @@ pub struct Schedule {
 
 impl Schedule {
     pub fn new(every: f64) -> Self {
-        Self { every, taken: 0, served: false }
+        Self {
+            every,
+            taken: 0,
+            served: false,
+        }
     }
 
     pub fn taken(&self) -> u64 {

@@ -42,7 +42,11 @@ impl std::fmt::Display for Ending {
 impl Until {
     /// Steps in all if neither the crack nor a change of the time step ends the run otherwise.
     pub fn steps(&self, step: u64, time: f64, time_step: f64, rate: f64) -> u64 {
-        let end = self.strain.map(|strain| strain / rate).unwrap_or(f64::INFINITY).min(self.time.unwrap_or(f64::INFINITY));
+        let end = self
+            .strain
+            .map(|strain| strain / rate)
+            .unwrap_or(f64::INFINITY)
+            .min(self.time.unwrap_or(f64::INFINITY));
         step + ((end - time) / time_step).round().max(0.0) as u64
     }
 }
@@ -60,7 +64,12 @@ pub struct Watch {
 impl Watch {
     pub fn new(setting: &Setting) -> Self {
         let notch = setting.crack_length;
-        Self { threshold: initiation::threshold(setting), notch, farthest: notch, last_advance: 0.0 }
+        Self {
+            threshold: initiation::threshold(setting),
+            notch,
+            farthest: notch,
+            last_advance: 0.0,
+        }
     }
 
     pub fn follow(&mut self, tip: f64, time: f64) {
@@ -99,6 +108,9 @@ impl Watch {
             return Some(Ending::CrackLength(self.farthest));
         }
         let still = time - self.last_advance;
-        until.arrest.filter(|&end| set_out && still >= end).map(|_| Ending::Arrest(still))
+        until
+            .arrest
+            .filter(|&end| set_out && still >= end)
+            .map(|_| Ending::Arrest(still))
     }
 }

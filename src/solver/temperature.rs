@@ -30,7 +30,11 @@ pub fn kinetic_temperature(mesh: &Mesh, state: &State) -> f64 {
         let key = [atom.column, atom.row].map(|coordinate| coordinate.div_euclid(CELL));
         let cell = cells.entry(key).or_insert_with(|| {
             order.push(key);
-            Cell { atoms: 0.0, mean: [0.0; 2], squared: 0.0 }
+            Cell {
+                atoms: 0.0,
+                mean: [0.0; 2],
+                squared: 0.0,
+            }
         });
         let velocity = [state.velocity[0][node], state.velocity[1][node]];
         cell.atoms += 1.0;
@@ -43,7 +47,11 @@ pub fn kinetic_temperature(mesh: &Mesh, state: &State) -> f64 {
         squared += cell.squared - (cell.mean[0] * cell.mean[0] + cell.mean[1] * cell.mean[1]) / cell.atoms;
         freedom += 2.0 * (cell.atoms - 1.0);
     }
-    if freedom > 0.0 { mass * squared.max(0.0) / (freedom * BOLTZMANN) } else { f64::NAN }
+    if freedom > 0.0 {
+        mass * squared.max(0.0) / (freedom * BOLTZMANN)
+    } else {
+        f64::NAN
+    }
 }
 
 #[cfg(test)]
@@ -55,8 +63,19 @@ mod tests {
     #[test]
     fn rigid_motion_has_no_temperature_and_random_motion_has_that_of_its_energy() {
         // [Deng2011] Eq. (3-22)
-        let layout = Layout { block: 10, rows: 6, triangles: 11 };
-        let plan = Plan { layout, element: 1, regions: vec![], crack_length: None, grip_rows: 10, spacing: 1.0 };
+        let layout = Layout {
+            block: 10,
+            rows: 6,
+            triangles: 11,
+        };
+        let plan = Plan {
+            layout,
+            element: 1,
+            regions: vec![],
+            crack_length: None,
+            grip_rows: 10,
+            spacing: 1.0,
+        };
         let mesh = Mesh::new(&plan);
         let mut state = State::at_rest(mesh.node_positions(), vec![2.0; mesh.node_count()]);
         state.velocity = [vec![3.0; mesh.node_count()], vec![-1.0; mesh.node_count()]];

@@ -14,7 +14,10 @@ fn zeros(mesh: &Mesh) -> Planes {
 }
 
 fn largest(planes: &Planes) -> f64 {
-    planes.iter().flatten().fold(0.0, |largest: f64, value| largest.max(value.abs()))
+    planes
+        .iter()
+        .flatten()
+        .fold(0.0, |largest: f64, value| largest.max(value.abs()))
 }
 
 fn check_against_referee(mesh: &Mesh, material: &Material, position: &Planes, label: &str) {
@@ -27,14 +30,20 @@ fn check_against_referee(mesh: &Mesh, material: &Material, position: &Planes, la
     for axis in 0..2 {
         for node in 0..mesh.node_count() {
             let difference = (force[axis][node] - expected.force[axis][node]).abs();
-            assert!(difference <= ROUNDING * scale, "{label}: node {node}, {difference:e} of {scale:e}");
+            assert!(
+                difference <= ROUNDING * scale,
+                "{label}: node {node}, {difference:e} of {scale:e}"
+            );
         }
     }
     let measure = forces.measure(position).expect(label);
     assert_eq!(measure.pairs, expected.pairs, "{label}: pairs within the cutoff");
     let well = 0.01 * material.interaction.curvature(material.spacing) * material.spacing.powi(2);
     let scale = expected.energy.abs().max(expected.pairs * well);
-    assert!((measure.energy - expected.energy).abs() <= ROUNDING * scale, "{label}: energy");
+    assert!(
+        (measure.energy - expected.energy).abs() <= ROUNDING * scale,
+        "{label}: energy"
+    );
 }
 
 #[test]
@@ -53,7 +62,9 @@ fn lists_made_earlier_leave_no_trace_in_the_forces() {
     let material = nearest_neighbours();
     for (mesh_name, mesh) in all_meshes(material.spacing) {
         let [early, late] = [0.02, 0.021].map(|strain| {
-            super::specimens::displaced(&mesh, |[x, y]| [0.0, strain * y + if y > 26.0 && x < 25.0 { 0.3 } else { 0.0 }])
+            super::specimens::displaced(&mesh, |[x, y]| {
+                [0.0, strain * y + if y > 26.0 && x < 25.0 { 0.3 } else { 0.0 }]
+            })
         });
         let mut kept = Forces::new(mesh.clone(), material);
         let mut fresh = Forces::new(mesh.clone(), material);

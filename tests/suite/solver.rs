@@ -45,7 +45,10 @@ impl Observer for Keeper {
 fn settings(strain: f64) -> Settings {
     Settings {
         time_step: TimeStep::Auto { fraction: 0.5 },
-        until: Until { strain: Some(strain), ..Until::default() },
+        until: Until {
+            strain: Some(strain),
+            ..Until::default()
+        },
         probe_every: 1.0,
         snapshot_every: Some(10.0),
         checkpoint_every: Duration::from_secs(3600),
@@ -60,7 +63,9 @@ fn solver(mesh: Mesh, material: Material, settings: Settings) -> Solver {
 
 fn run(solver: &mut Solver) -> (Keeper, Ending) {
     let mut keeper = Keeper::default();
-    let ending = solver.run(&mut keeper, &AtomicBool::new(false)).expect("the run ends well");
+    let ending = solver
+        .run(&mut keeper, &AtomicBool::new(false))
+        .expect("the run ends well");
     (keeper, ending)
 }
 
@@ -69,7 +74,9 @@ fn a_run_probes_at_equal_times_and_ends_at_its_strain() {
     let material = nearest_neighbours();
     let mut solver = solver(slab(10, vec![], material.spacing), material, settings(0.02));
     let (keeper, ending) = run(&mut solver);
-    let Ending::Strain(strain) = ending else { panic!("{ending}") };
+    let Ending::Strain(strain) = ending else {
+        panic!("{ending}")
+    };
     assert!((strain - 0.02).abs() < 1e-3 * solver.time_step()[0]);
     assert_eq!(keeper.probes.len(), 21);
     assert_eq!(keeper.probes.last().unwrap().step, solver.step_count());
@@ -102,10 +109,19 @@ fn truncation_releases_the_energy_of_every_pair_that_leaves() {
     let mut solver = solver(mesh, material, settings(0.046));
     let (keeper, _) = run(&mut solver);
     let last = keeper.probes.last().unwrap();
-    let broken = keeper.bonds.iter().map(|event| if event.broken { 1.0 } else { -1.0 }).sum::<f64>();
+    let broken = keeper
+        .bonds
+        .iter()
+        .map(|event| if event.broken { 1.0 } else { -1.0 })
+        .sum::<f64>();
     let each = -material.interaction.jump_at_cutoff();
     assert!(broken > 10.0);
-    assert!((last.cutoff_release / (each * broken) - 1.0).abs() < 0.2, "{} for {}", last.cutoff_release, each * broken);
+    assert!(
+        (last.cutoff_release / (each * broken) - 1.0).abs() < 0.2,
+        "{} for {}",
+        last.cutoff_release,
+        each * broken
+    );
     let error = solver.ledger().relative_error().unwrap();
     assert!(error < ENERGY_ERROR, "energy error {error:e}");
 }
@@ -143,7 +159,11 @@ fn a_run_from_a_checkpoint_ends_with_the_same_bits() {
             kept.bonds.extend(rest.bonds);
             kept.snapshots.extend(rest.snapshots);
             assert!(second.checkpoint() == whole.checkpoint(), "{name}: end states differ");
-            assert_eq!(format!("{:?}", kept.probes), format!("{:?}", whole_kept.probes), "{name}");
+            assert_eq!(
+                format!("{:?}", kept.probes),
+                format!("{:?}", whole_kept.probes),
+                "{name}"
+            );
             assert_eq!(kept.bonds, whole_kept.bonds, "{name}");
             assert_eq!(kept.snapshots, whole_kept.snapshots, "{name}");
         }
@@ -155,9 +175,16 @@ fn a_step_above_the_stability_limit_is_refused_with_both_numbers() {
     let material = nearest_neighbours();
     let mesh = slab(10, vec![], material.spacing);
     let loading = Stretching::new(&mesh, 1e-3, Grip::Clamped, true);
-    let given = Settings { time_step: TimeStep::Given(0.5), ..settings(0.01) };
-    let Err(error) = Solver::new(mesh, material, loading, given) else { panic!("it must be refused") };
-    let SolverError::StepTooLong { given, limit } = error else { panic!("{error}") };
+    let given = Settings {
+        time_step: TimeStep::Given(0.5),
+        ..settings(0.01)
+    };
+    let Err(error) = Solver::new(mesh, material, loading, given) else {
+        panic!("it must be refused")
+    };
+    let SolverError::StepTooLong { given, limit } = error else {
+        panic!("{error}")
+    };
     assert!(given == 0.5 && limit > 0.2 && limit < 0.26, "{limit}");
 }
 
@@ -172,7 +199,10 @@ fn the_bound_of_the_frequency_is_exact_for_atoms_and_close_for_triangles() {
         let solver = Solver::new(mesh, material, loading, settings(0.01)).unwrap();
         let found = 2.0 / solver.time_step()[1];
         let excess = found / expected - 1.0;
-        assert!((-1e-3..0.25).contains(&excess), "n = {element}: {found} against {expected}");
+        assert!(
+            (-1e-3..0.25).contains(&excess),
+            "n = {element}: {found} against {expected}"
+        );
         if element == 1 {
             assert!(excess < 1e-3, "{found}");
         }
@@ -180,9 +210,20 @@ fn the_bound_of_the_frequency_is_exact_for_atoms_and_close_for_triangles() {
 }
 
 fn slab_of_whole_triangles(block: u16, element: u16, spacing: f64) -> Mesh {
-    let layout = cgaft::mesh::sites::Layout { block: i32::from(block), rows: 6, triangles: 7 };
+    let layout = cgaft::mesh::sites::Layout {
+        block: i32::from(block),
+        rows: 6,
+        triangles: 7,
+    };
     let grip_rows = i32::from(block);
-    Mesh::new(&cgaft::mesh::Plan { layout, element, regions: vec![], crack_length: None, grip_rows, spacing })
+    Mesh::new(&cgaft::mesh::Plan {
+        layout,
+        element,
+        regions: vec![],
+        crack_length: None,
+        grip_rows,
+        spacing,
+    })
 }
 
 #[test]
@@ -190,7 +231,10 @@ fn a_blow_up_is_reported_with_step_and_advice() {
     let material = nearest_neighbours();
     let mesh = slab(10, vec![], material.spacing);
     let loading = Stretching::new(&mesh, 1e-3, Grip::Clamped, true);
-    let settings = Settings { time_step: TimeStep::Auto { fraction: 1.6 }, ..settings(0.1) };
+    let settings = Settings {
+        time_step: TimeStep::Auto { fraction: 1.6 },
+        ..settings(0.1)
+    };
     let mut solver = Solver::new(mesh, material, loading, settings).unwrap();
     let error = solver.run(&mut Keeper::default(), &AtomicBool::new(false)).unwrap_err();
     let text = error.to_string();

@@ -55,7 +55,10 @@ pub fn teller(style: Option<Style>, name: &str) -> Box<dyn FnMut(&Progress) + Se
 }
 
 /// Lets the first message through, then one every so often.
-fn throttled(every: Duration, mut tell: impl FnMut(&Progress, &Pace) + Send + 'static) -> Box<dyn FnMut(&Progress) + Send> {
+fn throttled(
+    every: Duration,
+    mut tell: impl FnMut(&Progress, &Pace) + Send + 'static,
+) -> Box<dyn FnMut(&Progress) + Send> {
     let mut since: Option<(Pace, Instant)> = None;
     Box::new(move |progress| {
         let (pace, told) = match since {

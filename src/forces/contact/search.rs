@@ -21,7 +21,12 @@ impl Field<'_> {
     /// Triangles that may meet something other than their intact neighbours.
     fn searched(&self) -> Vec<bool> {
         let mut searched = self.interfaces.exposed.clone();
-        let disturbed = self.interfaces.pairs.iter().zip(self.states).filter(|&(_, &state)| state != State::Tight);
+        let disturbed = self
+            .interfaces
+            .pairs
+            .iter()
+            .zip(self.states)
+            .filter(|&(_, &state)| state != State::Tight);
         for (pair, _) in disturbed {
             searched[pair.first as usize] = true;
             searched[pair.second as usize] = true;
@@ -38,7 +43,10 @@ impl Field<'_> {
         let triangles = self.mesh.triangles;
         a < triangles
             && b < triangles
-            && self.interfaces.between(a, b).is_some_and(|interface| self.states[interface] != State::Open)
+            && self
+                .interfaces
+                .between(a, b)
+                .is_some_and(|interface| self.states[interface] != State::Open)
     }
 }
 
@@ -70,7 +78,11 @@ impl Contacts {
     fn from_lists(mesh: &Mesh, candidates: Candidates, lists: Vec<(Vec<u32>, Vec<Partner>)>) -> Self {
         let counts: Vec<u32> = lists.iter().flat_map(|(counts, _)| counts.iter().copied()).collect();
         let mut number = vec![u32::MAX; counts.len()];
-        let mut contacts = Self { start: vec![0], of_element: vec![0; mesh.elements.len() + 1], ..Self::default() };
+        let mut contacts = Self {
+            start: vec![0],
+            of_element: vec![0; mesh.elements.len() + 1],
+            ..Self::default()
+        };
         for (candidate, &count) in counts.iter().enumerate().filter(|&(_, &count)| count > 0) {
             number[candidate] = contacts.element.len() as u32;
             contacts.element.push(candidates.element[candidate]);
@@ -103,7 +115,11 @@ impl Candidates {
             site_position(mesh, element as usize, local.map(i32::from), position)
         };
         let position = element.par_iter().zip(&local).map(place).collect();
-        Self { element, local, position }
+        Self {
+            element,
+            local,
+            position,
+        }
     }
 
     /// For every chunk of sites the number of partners of each and the partners, ascending.
@@ -165,8 +181,17 @@ impl Grid {
         let longest = extent[0].max(extent[1]) / (position.len().max(1) as f64);
         let cell = radius.max(0.5 * fitting).max(longest);
         let size = extent.map(|length| (length / cell) as usize + 1);
-        let mut grid = Self { origin: low, cell, size, start: vec![0; size[0] * size[1] + 1], points: vec![] };
-        let cells: Vec<u32> = position.iter().map(|&place| grid.number(grid.cell_of(place)) as u32).collect();
+        let mut grid = Self {
+            origin: low,
+            cell,
+            size,
+            start: vec![0; size[0] * size[1] + 1],
+            points: vec![],
+        };
+        let cells: Vec<u32> = position
+            .iter()
+            .map(|&place| grid.number(grid.cell_of(place)) as u32)
+            .collect();
         cells.iter().for_each(|&cell| grid.start[cell as usize + 1] += 1);
         for cell in 0..size[0] * size[1] {
             grid.start[cell + 1] += grid.start[cell];

@@ -1,0 +1,98 @@
+//! What a run gives its observers, and when.
+
+use std::time::Instant;
+
+use super::{Measure, Moment, Observer, Phase, Progress, RunError, Solver, probe, temperature};
+use crate::analysis::series::{BondEvent, Probe};
+
+impl Solver {
+    /// Gives observers what is due; at the end of a run all that is not yet given.
+    pub(super) fn observe<O: Observer>(&mut self, observer: &mut O, at_end: bool) -> Result<(), RunError<O::Error>> {
+        let probe = self.probes.take(self.time, self.time_step, at_end);
+        let snapshot = self.snapshots.take(self.time, self.time_step, at_end);
+        if !probe && !snapshot {
+            return Ok(());
+        }
+        let mut clock = Instant::now();
+        let measure = self
+            .forces
+            .measure(&self.state.position)
+            .map_err(|source| self.blow_up(source))?;
+        if probe {
+            self.probe(observer, &measure)?;
+        }
+        if snapshot {
+            let broken = self.forces.broken_bonds(&self.state.position);
+            let moment = Moment {
+                step: self.step,
+                time: self.time,
+                strain: self.strain(),
+                mesh: self.forces.mesh(),
+                state: &self.state,
+                measure: &measure,
+                broken: &broken,
+            };
+            observer.snapshot(&moment).map_err(RunError::Output)?;
+        }
+        self.cost.book(Phase::Output, &mut clock);
+        Ok(())
+    }
+
+    fn probe<O: Observer>(&mut self, observer: &mut O, measure: &Measure) -> Result<(), RunError<O::Error>> {
+        let row = self.probe_row(measure);
+        let number = self.probes.taken() - 1;
+        let bonds = self.changed_bonds(number as u32);
+        if let Some(tracker) = &mut self.tracker {
+            bonds.iter().for_each(|event| tracker.apply(event));
+            self.stop.follow(tracker.tip().x, self.time);
+        }
+        let profile = self.profile.stress(measure, &self.setting);
+        observer.probe(&row, &profile, &bonds).map_err(RunError::Output)?;
+        observer.progress(&Progress {
+            step: self.step,
+            of: self
+                .settings
+                .until
+                .steps(self.step, self.time, self.time_step, self.loading.rate),
+            time: self.time,
+            strain: self.strain(),
+            tip: self.tracker.as_ref().map(|_| self.stop.farthest_tip()),
+        });
+        self.ledger.check(self.step, self.time, self.strain())?;
+        Ok(())
+    }
+
+    fn probe_row(&mut self, measure: &Measure) -> Probe {
+        let kinetic = self.state.kinetic_energy();
+        let balance = self.ledger.balance(measure, kinetic);
+        let [sigma_xx, sigma_yy, sigma_xy] = probe::average_stress(self.forces.mesh(), measure, &self.setting);
+        let area = self.setting.length * self.setting.thickness;
+        Probe {
+            step: self.step,
+            time: self.time,
+            strain: self.strain(),
+            sigma_xx,
+            sigma_yy,
+            sigma_xy,
+            grip_stress: self.loading.grip_force(&self.state) / area,
+            kinetic,
+            potential: balance.potential,
+            work: balance.work,
+            cutoff_release: balance.cutoff_release,
+            temperature: temperature::kinetic_temperature(self.forces.mesh(), &self.state),
+        }
+    }
+
+    /// Bonds that broke or closed since the last probe; remembers those broken now.
+    fn changed_bonds(&mut self, probe: u32) -> Vec<BondEvent> {
+        let now = self.forces.broken_bonds(&self.state.position);
+        let before = if probe == 0 {
+            Vec::new()
+        } else {
+            std::mem::take(&mut self.broken)
+        };
+        let events = probe::bond_events(&before, &now, probe);
+        self.broken = now;
+        events
+    }
+}

@@ -1,0 +1,55 @@
+//! Leaving a run and going on with it.
+
+use super::checkpoint::Checkpoint;
+use super::{Solver, SolverError, probe};
+use crate::analysis::crack::Tracker;
+
+impl Solver {
+    /// Everything that a later run needs to go on from here.
+    pub fn checkpoint(&self) -> Checkpoint {
+        Checkpoint {
+            step: self.step,
+            time: self.time,
+            time_step: self.time_step,
+            position: self.state.position.clone(),
+            velocity: self.state.velocity.clone(),
+            open_interfaces: self.forces.open_interfaces(),
+            work: self.ledger.work(),
+            peak_work: self.ledger.peak_work(),
+            peak_imbalance: self.ledger.peak_imbalance(),
+            broken_bonds: self.broken.clone(),
+            probes: self.probes.taken(),
+            snapshots: self.snapshots.taken(),
+            last_advance: self.stop.last_advance(),
+            farthest_tip: self.stop.farthest_tip(),
+        }
+    }
+
+    /// Goes back to where a checkpoint was made.
+    pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SolverError> {
+        self.step = checkpoint.step;
+        self.time = checkpoint.time;
+        self.time_step = checkpoint.time_step;
+        self.state.position.clone_from(&checkpoint.position);
+        self.state.velocity.clone_from(&checkpoint.velocity);
+        self.forces.restore_open_interfaces(&checkpoint.open_interfaces);
+        self.forces
+            .compute(&self.state.position, &mut self.state.force)
+            .map_err(|source| self.blow_up(source))?;
+        self.power = self.loading.power(&self.state);
+        self.ledger
+            .restore(checkpoint.work, checkpoint.peak_work, checkpoint.peak_imbalance);
+        self.broken.clone_from(&checkpoint.broken_bonds);
+        self.tracker = Tracker::new(&self.setting);
+        if let Some(tracker) = &mut self.tracker {
+            let last_probe = checkpoint.probes.saturating_sub(1) as u32;
+            probe::bond_events(&[], &self.broken, last_probe)
+                .iter()
+                .for_each(|event| tracker.apply(event));
+        }
+        self.probes.restore(checkpoint.probes, checkpoint.step);
+        self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
+        self.stop.restore(checkpoint.last_advance, checkpoint.farthest_tip);
+        Ok(())
+    }
+}
