@@ -127,8 +127,8 @@ fn refuse_another_case(case: &Case, path: &Path, into: &Path) -> Result<(), Solv
             Err(SolveError::Input(other_case(into)))
         };
     }
-    let text = std::fs::read(path)
-        .map_err(|error| SolveError::Input(format!("cannot read {}: {error}", path.display())))?;
+    let text =
+        std::fs::read(path).map_err(|error| SolveError::Input(format!("cannot read {}: {error}", path.display())))?;
     Ok(store::write(&kept, &text)?)
 }
 

@@ -44,11 +44,7 @@ fn a_run_killed_just_before_it_was_published_is_published_whole() {
     assert_eq!(claim.state(), State::Partial(None));
     claim.begin("case: A\n", false).unwrap();
     claim.publish(outcome(), "A", &json!({"crack": "none"}), 1, 2).unwrap();
-    assert!(
-        matches!(store.state("1f"), State::Done(_)),
-        "{:?}",
-        store.state("1f")
-    );
+    assert!(matches!(store.state("1f"), State::Done(_)), "{:?}", store.state("1f"));
 }
 
 fn set(names: &[&str]) -> BTreeSet<String> {
