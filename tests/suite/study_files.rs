@@ -118,7 +118,9 @@ fn every_right_study_gives_cases() {
 #[test]
 fn every_study_fits_the_schema() {
     let validator = jsonschema::draft7::new(&study::schema()).unwrap();
-    let texts = right_studies().into_iter().map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap()));
+    let texts = right_studies()
+        .into_iter()
+        .map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap()));
     for (name, text) in texts.chain([("starter".to_owned(), starter("fresh"))]) {
         let options = serde_saphyr::options! { strict_booleans: true };
         let value: serde_json::Value = serde_saphyr::from_str_with_options(&text, options).unwrap();
