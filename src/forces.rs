@@ -223,12 +223,10 @@ impl Forces {
     fn check_sound(&self, position: &Planes) -> Result<(), ForceError> {
         for (element, shape) in self.mesh.elements.iter().enumerate() {
             let first = self.mesh.first_node(element);
-            for node in first..first + shape.node_count() {
-                // Written so that a position that is not a number is refused.
-                let is_near = |axis: usize| position[axis][node].abs() <= self.farthest;
-                if !(is_near(0) && is_near(1)) {
-                    return Err(ForceError::FlewAway { element });
-                }
+            // Written so that a position that is not a number is refused.
+            let is_near = |node: usize| position.iter().all(|axis| axis[node].abs() <= self.farthest);
+            if !(first..first + shape.node_count()).all(is_near) {
+                return Err(ForceError::FlewAway { element });
             }
             if !shape.is_atom() {
                 let affine = Affine::of_triangle(shape.size, first, position);
