@@ -1,5 +1,21 @@
 //! Coarse-grained atomistic dynamics of fracture: declarative studies from a YAML file to a report.
 
+pub mod analysis;
+pub mod cli;
+pub mod executor;
+pub mod forces;
+pub mod integrator;
+pub mod lattice;
+pub mod loading;
+pub mod material;
+pub mod mesh;
 pub mod plan;
+pub mod potential;
+pub mod record;
+pub mod report;
+pub mod setup;
+pub mod solver;
+pub mod state;
+pub mod store;
 pub mod study;
 pub mod units;

@@ -1,4 +1,16 @@
-//! All integration tests in one program, one module a part.
+//! All integration tests in one program, one module a part, so that the heavy crates are linked once.
 
-#[path = "suite/study_files.rs"]
-mod study_files;
+mod suite {
+    mod analysis;
+    mod cli;
+    mod executor;
+    mod forces;
+    mod record;
+    mod report;
+    mod solver;
+    mod specimens;
+    mod store;
+    mod study_files;
+    mod synthetic;
+    mod tidy;
+}

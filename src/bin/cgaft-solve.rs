@@ -1,1 +1,5 @@
-fn main() {}
+//! The program that computes one case; `cgaft` starts it, and so can a person.
+
+fn main() -> std::process::ExitCode {
+    cgaft::cli::solve::main()
+}

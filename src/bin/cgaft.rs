@@ -1,1 +1,5 @@
-fn main() {}
+//! The program a person types: plans a study, runs what is missing, reports.
+
+fn main() -> std::process::ExitCode {
+    cgaft::cli::main()
+}

@@ -17,11 +17,6 @@ pub struct Checkpoint {
     pub open_interfaces: Vec<u32>,
     /// Work of the grips so far, eV.
     pub work: f64,
-    /// Potential energy (eV) and number of pairs within the cutoff at the start.
-    pub initial_potential: f64,
-    pub initial_pairs: f64,
-    /// Kinetic energy at the start, eV.
-    pub initial_kinetic: f64,
     /// Largest |work| and largest energy imbalance seen, eV.
     pub peak_work: f64,
     pub peak_imbalance: f64,

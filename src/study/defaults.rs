@@ -4,13 +4,13 @@ use super::case::{AtCutoff, Edge, Grips, Lattice, MassMatrix, Mode, Ramp, Summat
 
 pub const AT_CUTOFF: AtCutoff = AtCutoff::Truncated;
 pub const LATTICE: Lattice = Lattice::Triangular;
-/// The 55-atom triangle of [Deng2011], section 5.1.
+/// Triangles of 55 atoms.
 pub const BLOCK: u32 = 10;
 pub const GRIPS: Grips = Grips::Clamped;
 pub const EDGE: Edge = Edge::Left;
 pub const MODE: Mode = Mode::I;
 pub const RAMP: Ramp = Ramp::InitialVelocity;
-pub const TIME_STEP: TimeStep = TimeStep::Auto { fraction: 0.8 };
+pub const TIME_STEP: TimeStep = TimeStep::Auto { fraction: 0.5 };
 pub const SUMMATION: Summation = Summation::Exact;
 pub const MASS: MassMatrix = MassMatrix::Lumped;
 pub const RANKS: u32 = 1;

@@ -1,0 +1,53 @@
+# Everything a person types to build, test and install cgaft. `make help` lists it.
+
+CARGO ?= cargo
+TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
+# Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
+PREFIX ?=
+
+.PHONY: help quickstart build test check lint schema setup test-setup install
+.NOTPARALLEL:
+
+help:
+	@echo 'make quickstart   build, then run studies/quickstart.yaml and build its report'
+	@echo 'make test         build, then run all fast tests'
+	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
+	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
+	@echo 'make schema       write schemas/study.schema.json again from the types'
+	@echo 'make setup        install the Debian packages that are missing'
+
+quickstart: build
+	$(TARGET)/release/cgaft study run studies/quickstart.yaml
+
+build: setup
+	$(CARGO) build --release --locked
+
+test: test-setup
+	$(CARGO) test --release --locked
+
+check: lint test
+	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \
+		|| { echo 'schemas/study.schema.json is stale: make schema'; exit 1; }
+
+# The last line: building and testing must agree on the features of every crate, or each compiles the heavy ones again.
+lint: setup
+	$(CARGO) fmt --check
+	$(CARGO) clippy --release --locked --all-targets -- -D warnings
+	.ci/shared-crates
+
+schema: build
+	mkdir -p schemas
+	$(TARGET)/release/cgaft schema > schemas/study.schema.json
+
+install: build
+	@if [ -n '$(PREFIX)' ]; then bin='$(PREFIX)/bin'; else bin="$${CARGO_HOME:-$$HOME/.cargo}/bin"; fi; \
+	if [ -z '$(PREFIX)' ] && ! { [ -d "$$bin" ] && [ -w "$$bin" ]; }; then bin="$$HOME/.local/bin"; fi; \
+	mkdir -p "$$bin" && install -m 755 $(TARGET)/release/cgaft $(TARGET)/release/cgaft-solve "$$bin" || exit 1; \
+	echo "installed cgaft and cgaft-solve in $$bin"; \
+	case ":$$PATH:" in *":$$bin:"*) ;; *) echo "put it on the PATH: export PATH=\"$$bin:\$$PATH\"" ;; esac
+
+setup:
+	@.ci/packages libhdf5-dev pkg-config
+
+test-setup: setup
+	@.ci/python target/python h5py numpy vtk

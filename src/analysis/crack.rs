@@ -1,0 +1,203 @@
+//! The crack: the broken bonds that hang together with the notch.
+//!
+//! A crack runs through the plaquettes of the lattice; two of them are joined where the bond between them is
+//! broken. [`Tracker`] keeps, for every plaquette that can be reached from the mouth of the notch, the number of
+//! broken bonds on the shortest way there, and mends this as bonds break and close, in time that grows with the
+//! part of the crack that changed. The tip is the foremost reached plaquette. Fragments and holes away from
+//! the notch are not reached and so do not count.
+
+pub mod branches;
+mod notch;
+pub mod plaquette;
+mod ways;
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::series::{BondEvent, Setting};
+use notch::Notch;
+use plaquette::{Bond, Plaquette, PlaquetteMap};
+
+/// Spacings between the points through which the arc length is measured. A crack that goes round single atoms is
+/// not longer for it; a straight crack, and one that kinks, keeps its length.
+pub const YARDSTICK_SPACINGS: usize = 5;
+
+/// Broken bonds a spacing along a close-packed row.
+pub const BONDS_A_SPACING: usize = 2;
+
+const UNREACHED: u32 = u32::MAX;
+const INTACT: u32 = u32::MAX;
+
+/// Where the foremost tip is, reference configuration, nm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Tip {
+    /// From the left edge of the specimen.
+    pub x: f64,
+    /// From the crack plane.
+    pub y: f64,
+    /// Length of the crack from the left edge to the tip along its path.
+    pub arc_length: f64,
+}
+
+/// Follows the crack while bonds break and close.
+#[derive(Clone, Debug)]
+pub struct Tracker {
+    notch: Notch,
+    /// Every plaquette with a broken bond, now or before; the mouth is the first. They name each other by index, so
+    /// that only a bond that breaks or closes has to be looked up.
+    cells: Vec<Cell>,
+    index: PlaquetteMap<usize>,
+    /// Reached plaquettes, foremost on top; entries that are no longer reached are dropped when they surface.
+    foremost: BinaryHeap<Rank>,
+}
+
+/// Foremost is the largest x; then the nearest to the crack plane.
+type Rank = (i32, Reverse<i32>, Plaquette, usize);
+
+#[derive(Clone, Copy, Debug)]
+struct Cell {
+    place: Plaquette,
+    /// Broken bonds to cross from the mouth.
+    distance: u32,
+    /// By direction of the side: the probe at which its bond broke, or `INTACT`, and the cell beyond it.
+    opened: [u32; 3],
+    beyond: [usize; 3],
+}
+
+const MOUTH: usize = 0;
+
+impl Tracker {
+    /// The crack as cut; `None` where the specimen has none.
+    pub fn new(setting: &Setting) -> Option<Tracker> {
+        let notch = Notch {
+            spacing: setting.spacing,
+            left_x: setting.left_x,
+            row: setting.crack_row? - 1,
+            cut_end: setting.crack_length,
+        };
+        let cut = notch.cut_bonds();
+        let mouth = cut
+            .first()?
+            .plaquettes()
+            .into_iter()
+            .min_by_key(|side| side.half_spacings())?;
+        let (cells, index) = (Vec::new(), PlaquetteMap::default());
+        let mut tracker = Tracker {
+            notch,
+            cells,
+            index,
+            foremost: BinaryHeap::new(),
+        };
+        tracker.cell(mouth);
+        tracker.reach(MOUTH, 0);
+        for bond in cut {
+            tracker.open(bond, 0);
+        }
+        Some(tracker)
+    }
+
+    /// Takes a bond that broke or closed. The notch itself never closes.
+    pub fn apply(&mut self, event: &BondEvent) {
+        let bond = Bond::of(event);
+        if event.broken {
+            self.open(bond, event.probe);
+        } else if !self.notch.is_cut(bond) {
+            self.close(bond);
+        }
+    }
+
+    /// The foremost tip.
+    pub fn tip(&self) -> Tip {
+        let points: Vec<[f64; 2]> = self.main_path().iter().map(|bond| self.notch.place(*bond)).collect();
+        let Some((&last, &first)) = points.last().zip(points.first()) else {
+            return Tip::default();
+        };
+        let stride = YARDSTICK_SPACINGS * BONDS_A_SPACING;
+        let marks = points.iter().step_by(stride).chain([&last]);
+        let chords = marks
+            .clone()
+            .zip(marks.skip(1))
+            .map(|(a, b)| (b[0] - a[0]).hypot(b[1] - a[1]));
+        Tip {
+            x: last[0],
+            y: last[1],
+            arc_length: first[0] + chords.sum::<f64>(),
+        }
+    }
+
+    /// Broken bonds from the mouth to this one; `None` where it is no part of the crack.
+    pub fn depth(&self, event: &BondEvent) -> Option<u32> {
+        let sides = Bond::of(event)
+            .plaquettes()
+            .into_iter()
+            .filter_map(|side| self.index.get(&side));
+        sides
+            .map(|&side| self.cells[side].distance)
+            .min()
+            .filter(|&depth| depth != UNREACHED)
+    }
+
+    /// How many bonds were broken from the mouth to the foremost tip.
+    pub fn tip_depth(&self) -> u32 {
+        self.cells[self.foremost_cell()].distance
+    }
+
+    /// The bonds broken from the mouth to the foremost tip.
+    fn main_path(&self) -> Vec<Bond> {
+        let mut bonds = Vec::new();
+        let mut here = self.foremost_cell();
+        while let Some((bond, nearer)) = self.step_back(here) {
+            bonds.push(bond);
+            here = nearer;
+        }
+        bonds.reverse();
+        bonds
+    }
+
+    /// One step towards the mouth. Of equally short ways the one nearest to the crack plane is taken, so that the
+    /// path depends on what is broken and not on the order in which it broke.
+    fn step_back(&self, from: usize) -> Option<(Bond, usize)> {
+        let cell = &self.cells[from];
+        let nearer = |beyond: usize| self.cells[beyond].distance.checked_add(1) == Some(cell.distance);
+        let rank = |beyond: usize| {
+            let place = self.cells[beyond].place;
+            ((place.row - self.notch.row).abs(), place)
+        };
+        let sides = self.sides(from).filter(|&(_, beyond)| nearer(beyond));
+        let (direction, beyond) = sides.min_by_key(|&(_, beyond)| rank(beyond))?;
+        Some((cell.place.across(direction).0, beyond))
+    }
+
+    fn foremost_cell(&self) -> usize {
+        self.foremost.peek().map_or(MOUTH, |top| top.3)
+    }
+
+    /// The open sides of a cell: direction and the cell beyond.
+    fn sides(&self, of: usize) -> impl Iterator<Item = (u8, usize)> + use<> {
+        let Cell { opened, beyond, .. } = self.cells[of];
+        (0..3u8)
+            .zip(opened)
+            .zip(beyond)
+            .filter(|((_, opened), _)| *opened != INTACT)
+            .map(|((side, _), beyond)| (side, beyond))
+    }
+
+    /// The probe at which a bond broke; `INTACT` where it did not.
+    fn opened(&self, bond: Bond) -> u32 {
+        let cell = self.index.get(&bond.plaquettes()[0]);
+        cell.map_or(INTACT, |&cell| self.cells[cell].opened[usize::from(bond.direction)])
+    }
+
+    fn cell(&mut self, place: Plaquette) -> usize {
+        let cells = &mut self.cells;
+        *self.index.entry(place).or_insert_with(|| {
+            cells.push(Cell {
+                place,
+                distance: UNREACHED,
+                opened: [INTACT; 3],
+                beyond: [MOUTH; 3],
+            });
+            cells.len() - 1
+        })
+    }
+}

@@ -1,0 +1,44 @@
+//! The notch: the bonds that were severed before anything broke.
+
+use super::plaquette::Bond;
+
+/// The cut, and where it lies in the lattice.
+#[derive(Clone, Copy, Debug)]
+pub struct Notch {
+    pub spacing: f64,
+    pub left_x: f64,
+    /// Bonds between lattice rows `row` and `row + 1` are cut.
+    pub row: i32,
+    pub cut_end: f64,
+}
+
+impl Notch {
+    /// The severed bonds, left to right. A bond counts as severed when its middle is left of the end of the cut;
+    /// half a spacing more is taken in, so that a crack is found whichever of its ends decides where the cut stops.
+    pub fn cut_bonds(&self) -> Vec<Bond> {
+        let first = ((self.left_x / self.spacing) - 0.5 * f64::from(self.row)).floor() as i32;
+        let count = (self.cut_end / self.spacing).ceil() as i32;
+        (first..=first + count + 1)
+            .flat_map(|column| {
+                [2, 1].map(|direction| Bond {
+                    column,
+                    row: self.row,
+                    direction,
+                })
+            })
+            .filter(|bond| self.is_cut(*bond))
+            .collect()
+    }
+
+    pub fn is_cut(&self, bond: Bond) -> bool {
+        let x = self.place(bond)[0];
+        bond.row == self.row && bond.direction != 0 && x >= 0.0 && x < self.cut_end + 0.5 * self.spacing
+    }
+
+    /// Middle of a bond, nm from the left edge and from the crack plane.
+    pub fn place(&self, bond: Bond) -> [f64; 2] {
+        let [x, y] = bond.midpoint();
+        let plane = (f64::from(self.row) + 0.5) * 0.75_f64.sqrt();
+        [x * self.spacing - self.left_x, (y - plane) * self.spacing]
+    }
+}

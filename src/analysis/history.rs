@@ -1,0 +1,116 @@
+//! The crack through time: its tip at every probe and its branches at the end.
+
+use std::cmp::Reverse;
+
+use super::crack::branches;
+use super::crack::{BONDS_A_SPACING, Tip, Tracker};
+use super::series::{BondEvent, Series, Setting};
+
+/// Side paths shorter than this are not branches: beside a path through atoms a few bonds break as the crack passes.
+pub const SPUR_SPACINGS: usize = 5;
+
+/// A coarse mesh opens one edge of an element at once; only what is longer than this many edges is a branch there.
+pub const SPUR_ELEMENTS: usize = 2;
+
+/// A branch that grew slower than this share of the Rayleigh speed over its last spur length is arrested.
+pub const ARREST_SPEED: f64 = 0.1;
+
+/// A crack from its start to the end of the run.
+#[derive(Clone, Debug, Default)]
+pub struct History {
+    /// One a probe.
+    pub tips: Vec<Tip>,
+    /// The main crack, then its branches.
+    pub branches: Vec<Branch>,
+}
+
+/// An arm of the crack at the end of the run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Branch {
+    /// Index of the arm it forks off; `None` for the main crack.
+    pub parent: Option<usize>,
+    /// Probe, time (ps) and strain of its birth.
+    pub probe: usize,
+    pub time: f64,
+    pub strain: f64,
+    /// The fork, nm from the left edge and from the crack plane.
+    pub x: f64,
+    pub y: f64,
+    /// Degrees from the x axis, counterclockwise.
+    pub angle: f64,
+    pub arrested: bool,
+}
+
+/// Length below which a side path is no branch, spacings.
+pub fn spur(setting: &Setting) -> usize {
+    SPUR_SPACINGS.max(SPUR_ELEMENTS * setting.element_at_crack as usize)
+}
+
+/// Follows the crack through the bond events; `None` where the specimen has no crack.
+///
+/// A bond that closes more than a spur behind the tip is a contact of the crack faces: the crack does not end there.
+pub fn history(series: &Series, setting: &Setting) -> Option<History> {
+    let mut tracker = Tracker::new(setting)?;
+    let wake = (spur(setting) * BONDS_A_SPACING) as u32;
+    let mut tips: Vec<Tip> = Vec::with_capacity(series.probes.len());
+    let mut events = series.bonds.as_slice();
+    for probe in 0..series.probes.len() as u32 {
+        let (now, later) = events.split_at(events.partition_point(|event| event.probe <= probe));
+        events = later;
+        take(&mut tracker, now, wake);
+        let unchanged = tips.last().copied().filter(|_| now.is_empty());
+        tips.push(unchanged.unwrap_or_else(|| tracker.tip()));
+    }
+    Some(History {
+        branches: branches(&tracker, series, setting),
+        tips,
+    })
+}
+
+/// Takes the events between two probes: what breaks first, then what closes, from the tip backwards, so that a crack
+/// that zips up is told from faces that touch.
+fn take(tracker: &mut Tracker, events: &[BondEvent], wake: u32) {
+    events
+        .iter()
+        .filter(|event| event.broken)
+        .for_each(|event| tracker.apply(event));
+    let mut closing: Vec<&BondEvent> = events.iter().filter(|event| !event.broken).collect();
+    closing.sort_by_key(|event| Reverse(tracker.depth(event)));
+    for event in closing {
+        if tracker
+            .depth(event)
+            .is_none_or(|depth| depth + wake >= tracker.tip_depth())
+        {
+            tracker.apply(event);
+        }
+    }
+}
+
+fn branches(tracker: &Tracker, series: &Series, setting: &Setting) -> Vec<Branch> {
+    let time = |probe: u32| {
+        series
+            .probes
+            .get(probe as usize)
+            .map(|probe| (probe.time, probe.strain))
+    };
+    let end = series.probes.last().map_or(0.0, |probe| probe.time);
+    let spur = spur(setting);
+    let patience = spur as f64 * setting.spacing / (ARREST_SPEED * setting.rayleigh_speed);
+    branches::arms(tracker, spur)
+        .into_iter()
+        .filter_map(|arm| {
+            let (born, strain) = time(arm.born)?;
+            let (grown, _) = time(arm.grown)?;
+            Some(Branch {
+                parent: arm.parent,
+                probe: arm.born as usize,
+                time: born,
+                strain,
+                x: arm.x,
+                y: arm.y,
+                angle: arm.angle,
+                arrested: end - grown > patience,
+            })
+        })
+        .collect()
+}

@@ -1,0 +1,72 @@
+//! Stress intensity factors, internal units eV/nm^2.5 (a stress in eV/nm^3 times the root of a length in nm).
+
+use std::f64::consts::PI;
+
+use super::regression;
+use super::series::{Series, Setting};
+
+/// The fit begins this many spacings, and this many element edges, ahead of the tip: nearer, the lattice and the
+/// linear elements do not follow the singular field.
+pub const FROM_SPACINGS: f64 = 4.0;
+pub const FROM_ELEMENTS: f64 = 1.0;
+
+/// The fit ends at this share of the crack length, the ligament or the height, whichever is smallest.
+pub const TO_SHARE: f64 = 1.0 / 3.0;
+
+/// Bins that a fit of two numbers with an error must have.
+pub const LEAST_BINS: usize = 3;
+
+/// Result of the fit `sigma_yy sqrt(2 pi r) = K (1 + c r)` ahead of the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearTip {
+    /// K and its standard error.
+    pub value: f64,
+    pub error: f64,
+    /// Range of r, nm.
+    pub from: f64,
+    pub to: f64,
+    pub bins: usize,
+}
+
+/// K from the profile of one probe with the tip at `tip` nm from the left edge; `None` where the range holds too few
+/// bins.
+pub fn near_tip(series: &Series, probe: usize, tip: f64, setting: &Setting) -> Option<NearTip> {
+    let from = setting.spacing * FROM_SPACINGS.max(FROM_ELEMENTS * f64::from(setting.element_at_crack));
+    let to = TO_SHARE * tip.min(setting.length - tip).min(setting.height);
+    let points: Vec<(f64, f64)> = ahead(series, probe, tip)
+        .filter(|(r, stress)| (from..=to).contains(r) && stress[1].is_finite())
+        .map(|(r, stress)| (r, stress[1] * (2.0 * PI * r).sqrt()))
+        .collect();
+    if points.len() < LEAST_BINS {
+        return None;
+    }
+    let fit = regression::line(&points)?;
+    Some(NearTip {
+        value: fit.intercept,
+        error: fit.intercept_error,
+        from,
+        to,
+        bins: points.len(),
+    })
+}
+
+/// Griffith's K: the energy that the elastic field gives up pays for the two new surfaces, sqrt(2 gamma E), per
+/// thickness.
+pub fn griffith(setting: &Setting) -> f64 {
+    (setting.fracture_energy * setting.young_modulus).sqrt() / setting.thickness
+}
+
+/// The profile of one probe ahead of a tip: distance (nm) and stress xx, yy, xy (eV/nm^3) of each bin.
+pub fn ahead(series: &Series, probe: usize, tip: f64) -> impl Iterator<Item = (f64, [f64; 3])> {
+    let bins = series.profile_x.len();
+    let row = series
+        .profiles
+        .get(probe * bins..(probe + 1) * bins)
+        .unwrap_or_default();
+    series
+        .profile_x
+        .iter()
+        .zip(row)
+        .map(move |(x, stress)| (x - tip, *stress))
+        .filter(|(r, _)| *r > 0.0)
+}

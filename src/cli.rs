@@ -1,0 +1,114 @@
+//! What a person types: one file a command.
+
+mod check;
+mod clean;
+mod completions;
+mod doctor;
+mod error;
+mod estimate;
+mod format;
+mod new;
+mod plan;
+mod progress;
+mod report;
+mod run;
+mod schema;
+pub mod solve;
+mod status;
+mod survey;
+mod terminal;
+
+pub use error::CliError;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+use terminal::Terminal;
+
+/// Coarse-grained atomistic dynamics of fracture: from a study file to a report.
+///
+/// Exit codes: 0 done, 1 a case failed, 2 bad input, 3 something is missing on this machine,
+/// 5 output could not be written, 130 interrupted.
+#[derive(Debug, Parser)]
+#[command(name = "cgaft", version, propagate_version = true, arg_required_else_help = true)]
+struct Cgaft {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Run, check and report a study
+    #[command(subcommand)]
+    Study(StudyCommand),
+    /// Print the JSON Schema of a study file, for editors
+    Schema,
+    /// Write a commented study to start from
+    New(new::Arguments),
+    /// Print completions for a shell
+    Completions(completions::Arguments),
+    /// Tell what this machine has, and what to do about the rest
+    Doctor,
+}
+
+#[derive(Debug, Subcommand)]
+enum StudyCommand {
+    /// Compute the cases that are missing, then build the report
+    Run(run::Arguments),
+    /// Validate a study and tell the size and cost of each case; computes nothing
+    Check(check::Arguments),
+    /// Tell what would run, why, and the exact command
+    Plan(plan::Arguments),
+    /// Tell the state of every case
+    Status(status::Arguments),
+    /// Build tables, figures and report again from what is there
+    Report(report::Arguments),
+    /// Remove unpublished and superseded runs
+    Clean(clean::Arguments),
+}
+
+/// The whole of `cgaft`.
+pub fn main() -> ExitCode {
+    let command = Cgaft::parse().command;
+    let json = command.json();
+    match command.carry_out() {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => {
+            terminal::warn(&error.render(terminal::color()));
+            if json {
+                // The exit code tells even if nobody reads this.
+                let _ = Terminal { quiet: false, json }.result(&error.to_json(), String::new);
+            }
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+impl Command {
+    fn carry_out(self) -> Result<u8, CliError> {
+        match self {
+            Command::Study(StudyCommand::Run(arguments)) => run::run(&arguments),
+            Command::Study(StudyCommand::Check(arguments)) => check::check(&arguments),
+            Command::Study(StudyCommand::Plan(arguments)) => plan::plan(&arguments),
+            Command::Study(StudyCommand::Status(arguments)) => status::status(&arguments),
+            Command::Study(StudyCommand::Report(arguments)) => report::rebuild_report(&arguments),
+            Command::Study(StudyCommand::Clean(arguments)) => clean::clean(&arguments),
+            Command::Schema => schema::schema(),
+            Command::New(arguments) => new::new(&arguments),
+            Command::Completions(arguments) => completions::completions(&arguments),
+            Command::Doctor => doctor::doctor(),
+        }
+    }
+
+    fn json(&self) -> bool {
+        match self {
+            Command::Study(StudyCommand::Run(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Check(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Plan(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Status(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Report(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Clean(arguments)) => arguments.common.json,
+            _ => false,
+        }
+    }
+}

@@ -1,0 +1,90 @@
+use clap::Args;
+use serde_json::json;
+
+use super::estimate::estimate;
+use crate::setup::Estimate;
+use super::survey::{self, Common};
+use super::terminal::Terminal;
+use super::{CliError, format};
+
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub common: Common,
+}
+
+/// `cgaft study check FILE`
+pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
+    let plan = survey::read(&arguments.common.study)?;
+    let estimates = plan.cases.iter().map(estimate).collect::<Result<Vec<_>, _>>()?;
+    let sized: Vec<_> = plan
+        .cases
+        .iter()
+        .map(|case| case.name.as_str())
+        .zip(&estimates)
+        .collect();
+    let cases: Vec<_> = sized.iter().map(|(name, estimate)| to_json(name, estimate)).collect();
+    let json = json!({ "study": plan.study, "cases": cases });
+    let terminal = Terminal {
+        quiet: false,
+        json: arguments.common.json,
+    };
+    terminal.result(&json, || {
+        let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
+        rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));
+        let total: f64 = estimates.iter().map(|estimate| estimate.seconds).sum();
+        format!(
+            "{}\n{}: no mistakes; {} cases, about {} on one core\n",
+            format::table(&rows),
+            plan.study,
+            plan.cases.len(),
+            format::duration(total)
+        )
+    })?;
+    Ok(0)
+}
+
+const HEAD: [&str; 9] = [
+    "case",
+    "nodes",
+    "elements",
+    "atoms",
+    "left over",
+    "steps",
+    "time step / limit",
+    "memory",
+    "about",
+];
+
+fn row(name: &str, estimate: &Estimate) -> Vec<String> {
+    vec![
+        name.to_owned(),
+        estimate.nodes.to_string(),
+        estimate.elements.to_string(),
+        estimate.represented_atoms.to_string(),
+        format!("{:.1} %", 100.0 * estimate.leftover_share),
+        estimate.steps.to_string(),
+        format!(
+            "{:.3} / {:.3} fs",
+            1e3 * estimate.time_step,
+            1e3 * estimate.stability_limit
+        ),
+        format::bytes(estimate.memory_bytes),
+        format::duration(estimate.seconds),
+    ]
+}
+
+fn to_json(name: &str, estimate: &Estimate) -> serde_json::Value {
+    json!({
+        "case": name,
+        "nodes": estimate.nodes,
+        "elements": estimate.elements,
+        "represented_atoms": estimate.represented_atoms,
+        "leftover_share": estimate.leftover_share,
+        "steps": estimate.steps,
+        "time_step_ps": estimate.time_step,
+        "stability_limit_ps": estimate.stability_limit,
+        "memory_bytes": estimate.memory_bytes,
+        "estimated_s": estimate.seconds,
+    })
+}

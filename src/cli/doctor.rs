@@ -1,0 +1,130 @@
+use std::fs;
+use std::path::Path;
+use std::thread;
+
+use super::{CliError, format, terminal};
+use crate::executor::launch;
+use crate::executor::probe::output_of;
+
+/// `cgaft doctor`: a line each, with what to do where something is missing.
+pub fn doctor() -> Result<u8, CliError> {
+    let findings = [solver(), cores(), memory(), hdf5(), mpirun(), slurm(), python()];
+    let mark = |finding: &Finding| {
+        if finding.needed_and_missing {
+            "missing"
+        } else if finding.here {
+            "ok"
+        } else {
+            "-"
+        }
+    };
+    let rows: Vec<Vec<String>> = findings
+        .iter()
+        .map(|finding| vec![mark(finding).to_owned(), finding.what.to_owned(), finding.words.clone()])
+        .collect();
+    terminal::print(&format::list(&rows))?;
+    let missing = findings.iter().any(|finding| finding.needed_and_missing);
+    Ok(if missing {
+        crate::executor::exit::MISSING_ENVIRONMENT
+    } else {
+        0
+    })
+}
+
+struct Finding {
+    what: &'static str,
+    here: bool,
+    needed_and_missing: bool,
+    /// What was found, or what to do about it.
+    words: String,
+}
+
+fn found(what: &'static str, words: String) -> Finding {
+    Finding {
+        what,
+        here: true,
+        needed_and_missing: false,
+        words,
+    }
+}
+
+fn optional(what: &'static str, advice: &str) -> Finding {
+    Finding {
+        what,
+        here: false,
+        needed_and_missing: false,
+        words: advice.to_owned(),
+    }
+}
+
+fn solver() -> Finding {
+    match launch::find_solver() {
+        Ok(path) => found("cgaft-solve", path.display().to_string()),
+        Err(error) => Finding {
+            what: "cgaft-solve",
+            here: false,
+            needed_and_missing: true,
+            words: error.to_string(),
+        },
+    }
+}
+
+fn cores() -> Finding {
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    found(
+        "cores",
+        format!("{cores}, all used by `cgaft study run` unless --jobs or --threads say otherwise"),
+    )
+}
+
+fn memory() -> Finding {
+    let text = fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let kibibytes = |key: &str| {
+        let line = text.lines().find(|line| line.starts_with(key))?;
+        line.split_whitespace().nth(1)?.parse::<u64>().ok()
+    };
+    match (kibibytes("MemTotal:"), kibibytes("MemAvailable:")) {
+        (Some(total), Some(available)) => found(
+            "memory",
+            format!(
+                "{}, {} free",
+                format::bytes(1024 * total),
+                format::bytes(1024 * available)
+            ),
+        ),
+        _ => optional("memory", "this system does not tell how much there is"),
+    }
+}
+
+fn hdf5() -> Finding {
+    let advice = "linked into this program; building it again needs libhdf5-dev and pkg-config (`make setup`)";
+    let version = first_line("pkg-config", &["--modversion", "hdf5"]);
+    version.map_or_else(|| optional("HDF5", advice), |version| found("HDF5", version))
+}
+
+fn mpirun() -> Finding {
+    let advice = "not found, and not needed in this version: cases use threads";
+    first_line("mpirun", &["--version"]).map_or_else(|| optional("mpirun", advice), |line| found("mpirun", line))
+}
+
+fn slurm() -> Finding {
+    let advice = "not found, and not needed: cases run on this machine";
+    first_line("sbatch", &["--version"]).map_or_else(|| optional("Slurm", advice), |line| found("Slurm", line))
+}
+
+/// Only to check that others can read the files; the project's own environment comes first.
+fn python() -> Finding {
+    let own = Path::new("target/python/bin/python");
+    let python = if own.exists() {
+        own.as_os_str()
+    } else {
+        "python3".as_ref()
+    };
+    let script = "import h5py, vtk; print('h5py', h5py.__version__ + ', vtk', vtk.VTK_VERSION)";
+    let advice = "without h5py and vtk, which only the tests of this project need: `make test` installs them there";
+    output_of(python, &["-c", script]).map_or_else(|| optional("python", advice), |versions| found("python", versions))
+}
+
+fn first_line(program: &str, arguments: &[&str]) -> Option<String> {
+    output_of(program, arguments)?.lines().next().map(str::to_owned)
+}

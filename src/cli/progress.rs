@@ -1,0 +1,83 @@
+//! What a person sees while cases run: a bar each on a terminal, plain lines elsewhere.
+
+mod bars;
+mod lines;
+mod pace;
+mod teller;
+
+pub use teller::{Style, teller};
+
+use pace::Pace;
+
+use std::io::{IsTerminal, stderr};
+
+use super::format;
+use super::terminal::Terminal;
+use crate::executor::{Ending, Job, Progress, Watcher};
+use crate::store::{Failure, Store};
+
+/// The way of showing progress that fits where the output goes.
+pub fn watcher(terminal: Terminal, store: &Store) -> Box<dyn Watcher> {
+    let folders = store.clone();
+    if stderr().is_terminal() && !terminal.quiet {
+        Box::new(bars::Bars::new(terminal, folders))
+    } else {
+        Box::new(lines::Lines::new(terminal, folders))
+    }
+}
+
+/// `step 1200/20000  strain 0.310 %  tip 56.2 nm  about 40 s left`
+fn progress_words(progress: &Progress, pace: &Pace) -> String {
+    let Progress {
+        step,
+        of,
+        strain,
+        tip_nm,
+        percent,
+        ..
+    } = progress;
+    let tip = tip_nm.map(|tip| format!("  tip {tip:.1} nm")).unwrap_or_default();
+    let left = pace
+        .seconds_left(*percent)
+        .map(|left| format!("  about {} left", format::duration(left)));
+    format!(
+        "step {step}/{of}  strain {:.3} %{tip}{}",
+        100.0 * strain,
+        left.unwrap_or_default()
+    )
+}
+
+const STOPPING: &str = "stopping: the cases write their checkpoints (Ctrl-C again ends them at once)";
+const WAITING: &str = "another process computes it; waiting for it";
+
+/// How a case ended, in one line.
+fn ending_words(job: &Job, ending: &Ending) -> String {
+    let name = &job.name;
+    match ending {
+        Ending::Done(manifest) => {
+            let seconds = format::duration(manifest.wall_seconds);
+            format!("{name}: done in {seconds} ({})", manifest.outcome.end_reason)
+        }
+        Ending::DoneElsewhere(_) => format!("{name}: done (computed by another process)"),
+        Ending::Failed(failure) => format!("{name}: failed: {}", failure.meaning),
+        Ending::Interrupted(attempt) => {
+            let reached = attempt.as_ref().and_then(|attempt| attempt.reached);
+            let at = reached
+                .map(|reached| format!(" at step {} of {}", reached.step, reached.of))
+                .unwrap_or_default();
+            format!("{name}: interrupted{at}")
+        }
+        Ending::NotStarted => format!("{name}: not started"),
+    }
+}
+
+/// A failure as a person needs it: what it means, the end of the log, and where the rest is.
+fn failure_words(job: &Job, failure: &Failure, store: &Store) -> String {
+    let mut words = format!("{}: failed: {}\n", job.name, failure.meaning);
+    for line in &failure.log_tail {
+        words.push_str(&format!("    | {line}\n"));
+    }
+    let log = store.partial_folder(&job.id).join("log.txt");
+    words.push_str(&format!("    the whole log is in {}", log.display()));
+    words
+}

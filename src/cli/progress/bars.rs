@@ -1,0 +1,74 @@
+use std::collections::HashMap;
+use std::time::Duration;
+
+use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
+
+use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words};
+use crate::cli::terminal::{Terminal, warn};
+use crate::executor::{Ending, Job, Progress, Watcher};
+use crate::store::Store;
+
+/// A bar a case.
+pub struct Bars {
+    terminal: Terminal,
+    store: Store,
+    screen: MultiProgress,
+    /// By the id of the case.
+    cases: HashMap<String, (ProgressBar, Option<Pace>)>,
+}
+
+/// A bar with the name before it and room for words behind it.
+pub fn new_bar(name: &str) -> ProgressBar {
+    let style = ProgressStyle::with_template("{prefix:12} {bar:24.cyan/dim} {percent:>3} %  {wide_msg}");
+    let style = style.expect("the template is right").progress_chars("━━─");
+    ProgressBar::new(100).with_style(style).with_prefix(name.to_owned())
+}
+
+impl Bars {
+    pub fn new(terminal: Terminal, store: Store) -> Bars {
+        Bars {
+            terminal,
+            store,
+            screen: MultiProgress::new(),
+            cases: HashMap::new(),
+        }
+    }
+
+    fn bar(&mut self, job: &Job) -> &mut (ProgressBar, Option<Pace>) {
+        let screen = &self.screen;
+        self.cases.entry(job.id.clone()).or_insert_with(|| {
+            let bar = screen.add(new_bar(&job.name));
+            bar.enable_steady_tick(Duration::from_millis(200));
+            (bar, None)
+        })
+    }
+}
+
+impl Watcher for Bars {
+    fn started(&mut self, job: &Job) {
+        self.bar(job).0.set_message("starting");
+    }
+
+    fn progress(&mut self, job: &Job, progress: &Progress) {
+        let (bar, pace) = self.bar(job);
+        let pace = pace.get_or_insert_with(|| Pace::starting_at(progress.percent));
+        bar.set_position(progress.percent as u64);
+        bar.set_message(progress_words(progress, pace));
+    }
+
+    fn waiting(&mut self, job: &Job) {
+        self.bar(job).0.set_message(WAITING);
+    }
+
+    fn stopping(&mut self) {
+        self.screen.suspend(|| warn(STOPPING));
+    }
+
+    fn ended(&mut self, job: &Job, ending: &Ending) {
+        self.bar(job).0.finish_and_clear();
+        self.screen.suspend(|| match ending {
+            Ending::Failed(failure) => warn(&failure_words(job, failure, &self.store)),
+            _ => self.terminal.say(&ending_words(job, ending)),
+        });
+    }
+}

@@ -1,0 +1,70 @@
+use std::io::{IsTerminal, Write, stderr, stdout};
+use std::time::{Duration, Instant};
+
+use clap::ValueEnum;
+
+use super::bars::new_bar;
+use super::{Pace, progress_words};
+use crate::cli::terminal::warn;
+use crate::executor::Progress;
+
+/// How `cgaft-solve` tells how far it is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Style {
+    /// One JSON object a line on standard output
+    Json,
+    /// A progress bar on standard error
+    Bar,
+    /// A plain line every few seconds on standard error
+    Lines,
+}
+
+/// Time between two messages of each style.
+const JSON_EVERY: Duration = Duration::from_millis(200);
+const BAR_EVERY: Duration = Duration::from_millis(100);
+const LINE_EVERY: Duration = Duration::from_secs(5);
+
+/// What the solver calls as often as it likes.
+pub fn teller(style: Option<Style>, name: &str) -> Box<dyn FnMut(&Progress) + Send> {
+    let fitting = if stderr().is_terminal() {
+        Style::Bar
+    } else {
+        Style::Lines
+    };
+    match style.unwrap_or(fitting) {
+        Style::Json => throttled(JSON_EVERY, |progress, _| {
+            let line = serde_json::to_string(progress).expect("progress has a JSON form");
+            // If nobody listens any more, the closed pipe on the other side says so.
+            let _ = writeln!(stdout().lock(), "{line}");
+        }),
+        Style::Bar => {
+            let bar = new_bar(name);
+            throttled(BAR_EVERY, move |progress, pace| {
+                bar.set_position(progress.percent as u64);
+                bar.set_message(progress_words(progress, pace));
+            })
+        }
+        Style::Lines => throttled(LINE_EVERY, |progress, pace| {
+            warn(&format!(
+                "{:.0} %  {}",
+                progress.percent,
+                progress_words(progress, pace)
+            ));
+        }),
+    }
+}
+
+/// Lets the first message through, then one every so often.
+fn throttled(every: Duration, mut tell: impl FnMut(&Progress, &Pace) + Send + 'static) -> Box<dyn FnMut(&Progress) + Send> {
+    let mut since: Option<(Pace, Instant)> = None;
+    Box::new(move |progress| {
+        let (pace, told) = match since {
+            Some((pace, told)) => (pace, Some(told)),
+            None => (Pace::starting_at(progress.percent), None),
+        };
+        if told.is_none_or(|told| told.elapsed() >= every) {
+            since = Some((pace, Instant::now()));
+            tell(progress, &pace);
+        }
+    })
+}

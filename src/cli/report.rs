@@ -1,0 +1,83 @@
+mod gather;
+
+use std::fs;
+use std::path::PathBuf;
+
+use clap::Args;
+use serde_json::json;
+
+use super::CliError;
+use super::survey::{self, Common, Place, Survey};
+use super::terminal::Terminal;
+use crate::report;
+use crate::store::{Program, State};
+
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub common: Common,
+    #[command(flatten)]
+    pub place: Place,
+}
+
+/// `cgaft study report FILE`
+pub fn rebuild_report(arguments: &Arguments) -> Result<u8, CliError> {
+    let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
+    survey.store.prepare()?;
+    let path = rebuild(&survey)?;
+    let json = json!({ "study": survey.plan.study, "report": path });
+    let terminal = Terminal {
+        quiet: false,
+        json: arguments.common.json,
+    };
+    terminal.result(&json, || format!("report: {}\n", path.display()))?;
+    Ok(0)
+}
+
+/// Builds the report unless it is there and tells of exactly these runs; where it is.
+pub fn bring_up_to_date(survey: &Survey) -> Result<PathBuf, CliError> {
+    let path = survey.store.root().join("report.html");
+    let current = fs::read_to_string(stamp_path(survey)).is_ok_and(|stamp| stamp == fingerprint(survey));
+    if current && path.exists() {
+        Ok(path)
+    } else {
+        rebuild(survey)
+    }
+}
+
+fn rebuild(survey: &Survey) -> Result<PathBuf, CliError> {
+    let _lock = survey.store.lock_report()?;
+    let path = build(survey)?;
+    let stamp = stamp_path(survey);
+    fs::write(&stamp, fingerprint(survey)).map_err(|source| CliError::Output {
+        what: stamp.display().to_string(),
+        source,
+    })?;
+    Ok(path)
+}
+
+fn stamp_path(survey: &Survey) -> PathBuf {
+    survey.store.root().join(".report-of")
+}
+
+/// Changes with everything that the report shows: the study's text, the program, and what became of each case.
+fn fingerprint(survey: &Survey) -> String {
+    let endings: Vec<_> = survey
+        .entries
+        .iter()
+        .map(|entry| match &entry.state {
+            State::Done(manifest) => (&entry.planned.name, &entry.id, "done", Some(manifest.ended)),
+            State::Failed(failure) => (&entry.planned.name, &entry.id, "failed", Some(failure.ended)),
+            other => (&entry.planned.name, &entry.id, other.word(), None),
+        })
+        .collect();
+    let all = json!([Program::current(), survey.plan.source, endings]);
+    blake3::hash(all.to_string().as_bytes()).to_hex().to_string()
+}
+
+/// Tables, figures and pages from the runs of the store: the one call to `report`.
+fn build(survey: &Survey) -> Result<PathBuf, CliError> {
+    let folder = survey.store.root();
+    report::write(&gather::gather(survey), folder)?;
+    Ok(folder.join("report.html"))
+}

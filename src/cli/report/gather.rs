@@ -1,0 +1,170 @@
+//! What the store holds, as the report wants it.
+
+use std::path::{Path, PathBuf};
+
+use serde_json::Value;
+
+use crate::analysis::series::{Series, Setting};
+use crate::cli::survey::{Entry, Survey};
+use crate::plan;
+use crate::record::frames::{FieldMesh, Frame};
+use crate::record::{self, FIELDS_FILE, RecordError, SERIES_FILE};
+use crate::report::{CaseResult, Failure, Manifest, Phase, Study};
+use crate::store::{self, Attempt, State};
+
+/// A study with the results of all its cases, also of those that failed or are missing.
+pub fn gather(survey: &Survey) -> Study {
+    Study {
+        name: survey.plan.study.clone(),
+        title: survey.plan.title.clone(),
+        question: survey.plan.question.clone(),
+        text: survey.plan.source.clone(),
+        cases: survey.entries.iter().map(|entry| case_result(survey, entry)).collect(),
+    }
+}
+
+fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
+    let mut choices = Vec::new();
+    flatten(&plan::spelled(&entry.planned.case), "", &mut choices);
+    let mut result = CaseResult {
+        name: entry.planned.name.clone(),
+        id: entry.id.clone(),
+        resolved: plan::write_case(&entry.planned),
+        choices,
+        manifest: Manifest {
+            state: entry.state.word().to_owned(),
+            ..Manifest::default()
+        },
+        ..CaseResult::default()
+    };
+    match &entry.state {
+        State::Done(done) => {
+            result.manifest = manifest(done);
+            match read_run(&survey.store.run_folder(&entry.id)) {
+                Ok((setting, series, last_frame)) => {
+                    result.setting = Some(setting);
+                    result.series = series;
+                    result.last_frame = last_frame;
+                }
+                Err(error) => result.failure = Some(failure(error.to_string(), "")),
+            }
+        }
+        State::Failed(failed) => {
+            // Outputs up to the failure are kept; that none can be read is no second failure.
+            result.series = record::read_segments(&survey.store.partial_folder(&entry.id)).unwrap_or_default();
+            result.manifest.version = failed.program.version.clone();
+            result.manifest.commit = failed.program.commit.clone();
+            result.manifest.ended = Some(moment(failed.ended));
+            result.failure = Some(failure(failed.meaning.clone(), &failed.log_tail.join("\n")));
+        }
+        State::Partial(attempt) | State::Running(attempt) => set_reached(&mut result.manifest, attempt.as_ref()),
+        State::Corrupt { why } => result.failure = Some(failure(format!("the run is damaged: {why}"), "")),
+        State::Missing => {}
+    }
+    result
+}
+
+/// What a run has left: setting, series and, if it took pictures, the last one.
+type Run = (Setting, Series, Option<(FieldMesh, Frame)>);
+
+fn read_run(folder: &Path) -> Result<Run, RecordError> {
+    let (setting, series) = record::read_series(&folder.join(SERIES_FILE))?;
+    let fields: PathBuf = folder.join(FIELDS_FILE);
+    if !fields.exists() {
+        return Ok((setting, series, None));
+    }
+    let (mesh, frames) = record::read_fields(&fields)?;
+    let last = match frames.steps().len() {
+        0 => None,
+        count => Some((mesh, frames.frame(count - 1)?)),
+    };
+    Ok((setting, series, last))
+}
+
+fn manifest(done: &store::Manifest) -> Manifest {
+    let outcome = &done.outcome;
+    let phase = |phase: &store::Phase| Phase {
+        name: phase.name.clone(),
+        calls: phase.calls,
+        seconds: phase.seconds,
+    };
+    Manifest {
+        state: "done".to_owned(),
+        version: done.program.version.clone(),
+        commit: done.program.commit.clone(),
+        host: done.host.clone(),
+        ranks: Some(done.ranks),
+        threads: Some(done.threads),
+        started: Some(moment(done.started)),
+        ended: Some(moment(done.ended)),
+        wall_seconds: Some(done.wall_seconds),
+        end_reason: Some(outcome.end_reason.clone()),
+        time_step: Some(outcome.time_step_ps),
+        stability_limit: Some(outcome.stability_limit_ps),
+        steps: Some(outcome.steps),
+        energy_error: outcome.energy_error_relative,
+        cost: outcome.cost.iter().map(phase).collect(),
+    }
+}
+
+fn set_reached(manifest: &mut Manifest, attempt: Option<&Attempt>) {
+    let Some(attempt) = attempt else { return };
+    manifest.version = attempt.program.version.clone();
+    manifest.commit = attempt.program.commit.clone();
+    manifest.started = Some(moment(attempt.started));
+    manifest.wall_seconds = Some(attempt.wall_seconds);
+    manifest.steps = attempt.reached.map(|reached| reached.step);
+}
+
+fn failure(reason: String, log_tail: &str) -> Failure {
+    Failure {
+        reason,
+        log_tail: log_tail.to_owned(),
+    }
+}
+
+fn moment(time: jiff::Timestamp) -> String {
+    time.strftime("%F %T UTC").to_string()
+}
+
+/// `crack.length` and its value, for every leaf.
+fn flatten(value: &Value, path: &str, pairs: &mut Vec<(String, String)>) {
+    match value {
+        Value::Object(map) => {
+            for (key, inner) in map {
+                let path = if path.is_empty() {
+                    key.clone()
+                } else {
+                    format!("{path}.{key}")
+                };
+                flatten(inner, &path, pairs);
+            }
+        }
+        Value::String(text) => pairs.push((path.to_owned(), text.clone())),
+        other => pairs.push((path.to_owned(), other.to_string())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn choices_are_named_as_in_the_study_file() {
+        let case = serde_json::json!({"crack": {"edge": "left", "length": "56 nm"}, "resolution": {"element": 10}});
+        let mut pairs = Vec::new();
+        flatten(&case, "", &mut pairs);
+        let pairs: Vec<_> = pairs
+            .iter()
+            .map(|(key, value)| (key.as_str(), value.as_str()))
+            .collect();
+        assert_eq!(
+            pairs,
+            [
+                ("crack.edge", "left"),
+                ("crack.length", "56 nm"),
+                ("resolution.element", "10")
+            ]
+        );
+    }
+}

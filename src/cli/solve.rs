@@ -1,0 +1,226 @@
+//! `cgaft-solve`: one case, from its file to its folder.
+
+use std::io::{self, Read};
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+use std::time::Duration;
+
+use clap::Parser;
+use signal_hook::consts::{SIGINT, SIGTERM};
+use signal_hook::flag;
+
+use super::progress;
+use super::terminal::{self, warn};
+use crate::executor::{Progress, exit};
+use crate::setup::{self, RunCaseError};
+use crate::solver::{self, Ending};
+use crate::store::{FolderLock, Outcome, Phase, StoreError};
+use crate::study::case::Case;
+use crate::study::{self, StudyError};
+
+/// Compute one case of a study.
+///
+/// Ctrl-C writes a checkpoint and stops; the same command goes on from there.
+/// Exit codes: 0 done, 2 bad input, 3 something is missing on this machine, 4 the physics failed,
+/// 5 output could not be written, 130 interrupted.
+#[derive(Debug, Parser)]
+#[command(name = "cgaft-solve", version)]
+struct Arguments {
+    /// The case, as `cgaft study run` writes it beside each run
+    case: PathBuf,
+    /// Folder for everything that the run writes
+    #[arg(long, value_name = "DIR")]
+    into: PathBuf,
+    /// Threads [default: what the case says, else the cores of this machine]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    threads: Option<u32>,
+    /// How to tell progress [default: a bar on a terminal, else lines]
+    #[arg(long, value_enum)]
+    progress: Option<progress::Style>,
+    /// Stop with a checkpoint when standard input closes, so that nothing outlives the one who started it
+    #[arg(long)]
+    parent_pipe: bool,
+}
+
+/// How a computation ended, if it did not fail.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ended {
+    Finished(Outcome),
+    /// It was asked to stop, and has left a checkpoint.
+    Interrupted,
+}
+
+/// Why a case could not be computed to its end; each has its exit code.
+#[derive(Debug, thiserror::Error)]
+pub enum SolveError {
+    #[error(transparent)]
+    Study(#[from] StudyError),
+    #[error("{0}")]
+    Input(String),
+    #[error("{0}")]
+    Environment(String),
+    /// With the step, the place and what to try.
+    #[error("{0}")]
+    Physics(String),
+    #[error("{0}")]
+    Output(String),
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// The whole of `cgaft-solve`.
+pub fn main() -> ExitCode {
+    let arguments = Arguments::parse();
+    match solve(&arguments) {
+        Ok(Ended::Finished(_)) => ExitCode::SUCCESS,
+        Ok(Ended::Interrupted) => {
+            warn("interrupted; the same command goes on from the checkpoint");
+            ExitCode::from(exit::INTERRUPTED)
+        }
+        Err(error) => {
+            warn(&error.render(terminal::color()));
+            ExitCode::from(error.exit_code())
+        }
+    }
+}
+
+fn solve(arguments: &Arguments) -> Result<Ended, SolveError> {
+    let (name, case) = read_case(&arguments.case)?;
+    let patience = Duration::from_secs(30);
+    let Some(_lock) = FolderLock::take(&arguments.into, patience)? else {
+        let folder = arguments.into.display();
+        return Err(SolveError::Output(format!(
+            "another solver writes into {folder}; wait for it, or choose another folder"
+        )));
+    };
+    refuse_another_case(&case, &arguments.case, &arguments.into)?;
+    let stop = stop_flag(arguments.parent_pipe)?;
+    let cores = || thread::available_parallelism().map_or(1, usize::from) as u32;
+    let threads = arguments.threads.or(case.execution.threads).unwrap_or_else(cores);
+    let mut tell = progress::teller(arguments.progress, &name);
+    let ended = compute(&case, &arguments.into, threads, &stop, tell.as_mut())?;
+    if let Ended::Finished(outcome) = &ended {
+        outcome.write(&arguments.into)?;
+    }
+    Ok(ended)
+}
+
+fn read_case(path: &Path) -> Result<(String, Case), SolveError> {
+    let text = path
+        .to_str()
+        .ok_or_else(|| SolveError::Input(format!("{} is not UTF-8; rename it", path.display())))?;
+    Ok(study::read_case(text)?)
+}
+
+/// A checkpoint of one case must not become the start of another.
+fn refuse_another_case(case: &Case, path: &Path, into: &Path) -> Result<(), SolveError> {
+    let kept = into.join("case.yaml");
+    if kept.exists() {
+        let (_, mut old) = read_case(&kept)?;
+        old.execution = case.execution.clone();
+        return if old == *case {
+            Ok(())
+        } else {
+            Err(SolveError::Input(other_case(into)))
+        };
+    }
+    std::fs::copy(path, &kept)
+        .map_err(|error| SolveError::Output(format!("cannot write {}: {error}", kept.display())))?;
+    Ok(())
+}
+
+fn other_case(into: &Path) -> String {
+    format!(
+        "{} holds the run of another case; choose another folder, or remove that one first",
+        into.display()
+    )
+}
+
+/// Becomes true at Ctrl-C, SIGTERM and, if wanted, at the end of standard input. A second Ctrl-C ends the program at once.
+fn stop_flag(parent_pipe: bool) -> Result<Arc<AtomicBool>, SolveError> {
+    let stop = Arc::new(AtomicBool::new(false));
+    for signal in [SIGINT, SIGTERM] {
+        flag::register_conditional_shutdown(signal, i32::from(exit::INTERRUPTED), stop.clone())
+            .and_then(|_| flag::register(signal, stop.clone()))
+            .map_err(|error| SolveError::Environment(format!("cannot catch Ctrl-C: {error}")))?;
+    }
+    if parent_pipe {
+        let stop = stop.clone();
+        thread::spawn(move || {
+            let mut input = io::stdin().lock();
+            while !matches!(input.read(&mut [0; 64]), Ok(0) | Err(_)) {}
+            stop.store(true, Ordering::SeqCst);
+        });
+    }
+    Ok(stop)
+}
+
+impl SolveError {
+    fn exit_code(&self) -> u8 {
+        match self {
+            SolveError::Study(_) | SolveError::Input(_) => exit::BAD_INPUT,
+            SolveError::Environment(_) => exit::MISSING_ENVIRONMENT,
+            SolveError::Physics(_) => exit::PHYSICS_FAILED,
+            SolveError::Output(_) | SolveError::Store(_) => exit::OUTPUT_FAILED,
+        }
+    }
+
+    fn render(&self, color: bool) -> String {
+        match self {
+            SolveError::Study(study) => study.render(color).trim_end().to_owned(),
+            other => format!("error: {other}"),
+        }
+    }
+}
+
+/// Computes the case into the folder, going on from its checkpoint if there is one: the one call to `setup`.
+fn compute(
+    case: &Case,
+    into: &Path,
+    threads: u32,
+    stop: &AtomicBool,
+    tell: &mut (dyn FnMut(&Progress) + Send),
+) -> Result<Ended, SolveError> {
+    let mut tell = |progress: &solver::Progress| {
+        let of = progress.of.max(1);
+        tell(&Progress {
+            step: progress.step,
+            of,
+            time_ps: progress.time,
+            strain: progress.strain,
+            tip_nm: progress.tip,
+            percent: 100.0 * progress.step as f64 / of as f64,
+        });
+    };
+    let finished = setup::run_case(case, into, threads, stop, &mut tell, &mut warn)?;
+    if finished.ending == Ending::Interrupted {
+        return Ok(Ended::Interrupted);
+    }
+    let phase = |(phase, calls, seconds): (solver::Phase, u64, f64)| Phase {
+        name: phase.name().to_owned(),
+        calls,
+        seconds,
+    };
+    Ok(Ended::Finished(Outcome {
+        end_reason: finished.ending.to_string(),
+        steps: finished.steps,
+        time_step_ps: finished.time_step,
+        stability_limit_ps: finished.stability_limit,
+        energy_error_relative: finished.energy_error,
+        cost: finished.cost.rows().map(phase).collect(),
+    }))
+}
+
+impl From<RunCaseError> for SolveError {
+    fn from(error: RunCaseError) -> Self {
+        match error {
+            RunCaseError::Setup(setup) => Self::Input(setup.to_string()),
+            physics @ RunCaseError::Physics(..) => Self::Physics(physics.to_string()),
+            RunCaseError::Record(record) => Self::Output(record.to_string()),
+            threads @ RunCaseError::Threads { .. } => Self::Environment(threads.to_string()),
+        }
+    }
+}

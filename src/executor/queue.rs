@@ -1,0 +1,295 @@
+//! Sees a list of cases through: several at once, the longest first, none twice, none stopped by another's failure.
+
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::ExitStatus;
+use std::sync::mpsc::{self, Receiver, Sender};
+use std::time::{Duration, Instant};
+
+use jiff::Timestamp;
+
+use super::local::{self, Event, Running};
+use super::share::Share;
+use super::{ExecutorError, Progress, Stop, exit, launch};
+use crate::store::{Attempt, Claim, Failure, Manifest, Program, Reached, State, Store};
+
+/// A case to compute.
+#[derive(Clone, Debug)]
+pub struct Job {
+    pub name: String,
+    /// Identity of the case: names its run.
+    pub id: String,
+    /// Content of the case file that the solver reads.
+    pub case_text: String,
+    /// The case for the manifest.
+    pub case: serde_json::Value,
+    /// Estimated time on one thread, s.
+    pub seconds: f64,
+    /// Where the study itself says how many threads; else all jobs have the same.
+    pub threads: Option<u32>,
+    /// Compute it even if it is done, and from the start.
+    pub fresh: bool,
+}
+
+#[derive(Clone, Debug)]
+pub struct Settings {
+    pub solver: PathBuf,
+    pub share: Share,
+}
+
+/// How a case ended.
+#[derive(Clone, Debug)]
+pub enum Ending {
+    Done(Box<Manifest>),
+    /// Another process has computed it meanwhile.
+    DoneElsewhere(Box<Manifest>),
+    Failed(Box<Failure>),
+    /// It has stopped on request and goes on from its last checkpoint next time.
+    Interrupted(Option<Attempt>),
+    /// The request to stop came before its turn.
+    NotStarted,
+}
+
+/// Is told what happens.
+pub trait Watcher {
+    fn started(&mut self, job: &Job);
+    fn progress(&mut self, job: &Job, progress: &Progress);
+    /// Another process works on it.
+    fn waiting(&mut self, job: &Job);
+    fn stopping(&mut self);
+    fn ended(&mut self, job: &Job, ending: &Ending);
+}
+
+/// Computes all jobs; the endings are in the order of the jobs.
+pub fn run(
+    store: &Store,
+    jobs: &[Job],
+    settings: &Settings,
+    stop: &Stop,
+    watcher: &mut dyn Watcher,
+) -> Result<Vec<Ending>, ExecutorError> {
+    let mut queue = Queue::new(store, jobs, settings, watcher);
+    let mut told = false;
+    loop {
+        if stop.requested() && !told {
+            told = true;
+            queue.interrupt();
+        }
+        if stop.insisted() {
+            queue.running.iter_mut().for_each(|work| work.process.kill());
+        }
+        if !stop.requested() {
+            queue.start_what_fits()?;
+        }
+        queue.collect(stop.requested())?;
+        if queue.running.is_empty() && (stop.requested() || queue.waiting.is_empty()) {
+            return Ok(queue.endings);
+        }
+        if let Ok(Event::Progress(job, progress)) = queue.listen.recv_timeout(POLL) {
+            queue.progress(job, &progress)?;
+        }
+    }
+}
+
+/// How long an ended child, a freed run or a Ctrl-C may go unseen.
+const POLL: Duration = Duration::from_millis(50);
+/// Time between two notes in the store of how far a case is.
+const NOTE_EVERY: Duration = Duration::from_secs(2);
+/// Lines of its log that a failed case shows.
+const LOG_TAIL: usize = 20;
+
+struct Queue<'a> {
+    store: &'a Store,
+    jobs: &'a [Job],
+    settings: &'a Settings,
+    watcher: &'a mut dyn Watcher,
+    /// Still to be started, the longest last.
+    waiting: Vec<usize>,
+    running: Vec<Work>,
+    endings: Vec<Ending>,
+    /// Those of which the watcher knows that another process has them.
+    told_busy: Vec<bool>,
+    began: Timestamp,
+    speak: Sender<Event>,
+    listen: Receiver<Event>,
+}
+
+struct Work {
+    job: usize,
+    process: Running,
+    claim: Claim,
+    threads: u32,
+    noted: Instant,
+}
+
+impl<'a> Queue<'a> {
+    fn new(store: &'a Store, jobs: &'a [Job], settings: &'a Settings, watcher: &'a mut dyn Watcher) -> Self {
+        let (speak, listen) = mpsc::channel();
+        let mut waiting: Vec<usize> = (0..jobs.len()).collect();
+        waiting.sort_by(|&a, &b| jobs[a].seconds.total_cmp(&jobs[b].seconds).then(b.cmp(&a)));
+        Queue {
+            store,
+            jobs,
+            settings,
+            watcher,
+            waiting,
+            running: Vec::new(),
+            endings: vec![Ending::NotStarted; jobs.len()],
+            told_busy: vec![false; jobs.len()],
+            began: Timestamp::now(),
+            speak,
+            listen,
+        }
+    }
+
+    fn start_what_fits(&mut self) -> Result<(), ExecutorError> {
+        for job in self.waiting.clone().into_iter().rev() {
+            if self.running.len() >= self.settings.share.jobs {
+                return Ok(());
+            }
+            if let Some(claim) = self.store.claim(&self.jobs[job].id)? {
+                self.waiting.retain(|&other| other != job);
+                self.start_or_skip(job, claim)?;
+            } else if !self.told_busy[job] {
+                self.told_busy[job] = true;
+                self.watcher.waiting(&self.jobs[job]);
+            }
+        }
+        Ok(())
+    }
+
+    fn start_or_skip(&mut self, number: usize, mut claim: Claim) -> Result<(), ExecutorError> {
+        let job = &self.jobs[number];
+        let state = claim.state();
+        match state {
+            State::Done(manifest) if !job.fresh || manifest.ended >= self.began => {
+                self.end(number, Ending::DoneElsewhere(manifest));
+                return Ok(());
+            }
+            _ => claim.begin(&job.case_text, job.fresh || starts_over(&state))?,
+        }
+        let folder = claim.folder();
+        let threads = job.threads.unwrap_or(self.settings.share.threads);
+        let command = launch::launch(&self.settings.solver, &folder, threads);
+        let log = open_log(&folder, &command)?;
+        let process = local::start(number, &command, log, self.speak.clone())?;
+        self.watcher.started(job);
+        self.running.push(Work {
+            job: number,
+            process,
+            claim,
+            threads,
+            noted: Instant::now() - NOTE_EVERY,
+        });
+        Ok(())
+    }
+
+    fn progress(&mut self, job: usize, progress: &Progress) -> Result<(), ExecutorError> {
+        let Some(work) = self.running.iter_mut().find(|work| work.job == job) else {
+            return Ok(());
+        };
+        if work.noted.elapsed() >= NOTE_EVERY {
+            work.noted = Instant::now();
+            work.claim.note(Some(Reached {
+                step: progress.step,
+                of: progress.of,
+                percent: progress.percent,
+            }))?;
+        }
+        self.watcher.progress(&self.jobs[job], progress);
+        Ok(())
+    }
+
+    /// Takes in those that have ended.
+    fn collect(&mut self, stopping: bool) -> Result<(), ExecutorError> {
+        for position in (0..self.running.len()).rev() {
+            if let Some(status) = self.running[position].process.ended() {
+                // What it said last may still be on its way.
+                while let Ok(Event::Progress(job, progress)) = self.listen.try_recv() {
+                    self.progress(job, &progress)?;
+                }
+                let work = self.running.remove(position);
+                let job = work.job;
+                let ending = self.ending_of(work, status, stopping)?;
+                self.end(job, ending);
+            }
+        }
+        Ok(())
+    }
+
+    fn ending_of(&self, mut work: Work, status: ExitStatus, stopping: bool) -> Result<Ending, ExecutorError> {
+        let job = &self.jobs[work.job];
+        let interrupted = status.code() == Some(i32::from(exit::INTERRUPTED)) || (stopping && status.code().is_none());
+        if interrupted {
+            return Ok(Ending::Interrupted(Some(work.claim.note(None)?.clone())));
+        }
+        let outcome = work.claim.outcome().filter(|_| status.success());
+        if let Some(outcome) = outcome {
+            let manifest = work.claim.publish(outcome, &job.name, &job.case, 1, work.threads)?;
+            self.store.link(&job.name, &job.id)?;
+            return Ok(Ending::Done(Box::new(manifest)));
+        }
+        let meaning = if status.success() {
+            "the solver ended without a result; `cgaft` and `cgaft-solve` are perhaps of different versions: install \
+             both again"
+                .to_owned()
+        } else {
+            exit::meaning(status)
+        };
+        let tail = log_tail(&work.claim.folder());
+        Ok(Ending::Failed(Box::new(work.claim.fail(
+            status.code(),
+            meaning,
+            tail,
+        )?)))
+    }
+
+    fn end(&mut self, job: usize, ending: Ending) {
+        self.watcher.ended(&self.jobs[job], &ending);
+        self.endings[job] = ending;
+    }
+
+    fn interrupt(&mut self) {
+        self.watcher.stopping();
+        self.running.iter_mut().for_each(|work| work.process.interrupt());
+    }
+}
+
+/// Whether the checkpoints of the attempt before are of no use: they may hold the blow-up, or another version wrote them.
+pub fn starts_over(state: &State) -> bool {
+    let version = |program: &Program| program.version != Program::current().version;
+    match state {
+        State::Failed(failure) => {
+            failure.exit_code == Some(i32::from(exit::PHYSICS_FAILED)) || version(&failure.program)
+        }
+        State::Partial(Some(attempt)) => version(&attempt.program),
+        State::Missing | State::Partial(None) | State::Running(_) => false,
+        State::Done(_) | State::Corrupt { .. } => true,
+    }
+}
+
+fn open_log(folder: &Path, command: &launch::Launch) -> Result<File, ExecutorError> {
+    use std::io::Write;
+    let path = folder.join("log.txt");
+    let open = || {
+        let mut log = File::options().create(true).append(true).open(&path)?;
+        writeln!(log, "{} {command}", Timestamp::now().strftime("%F %T UTC"))?;
+        Ok(log)
+    };
+    open().map_err(|source| ExecutorError::Log {
+        path: path.clone(),
+        source,
+    })
+}
+
+/// The last lines of a log, of which only the end is read.
+fn log_tail(folder: &Path) -> Vec<String> {
+    let bytes = fs::read(folder.join("log.txt")).unwrap_or_default();
+    let end = &bytes[bytes.len().saturating_sub(1 << 16)..];
+    let text = String::from_utf8_lossy(end);
+    let lines: Vec<&str> = text.lines().collect();
+    lines[lines.len().saturating_sub(LOG_TAIL)..]
+        .iter()
+        .map(|line| (*line).to_owned())
+        .collect()
+}

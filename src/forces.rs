@@ -1,0 +1,263 @@
+//! Forces on the nodes as the exact gradient of one energy, the plain sum over site pairs within the cutoff.
+//!
+//! Every pair is summed in exactly one of three ways: inside a triangle by lattice vector (`bulk`), between triangles
+//! whose interface is intact along its strings (`interface`), and everywhere else by a neighbour search (`contact`).
+//! `referee` sums over all pairs without any of this.
+//!
+//! Every sum runs in an order fixed by the numbers of elements, interfaces and sites, so that results do not depend
+//! on the number of threads or on when neighbour lists were made.
+
+mod affine;
+mod bonds;
+mod bulk;
+mod contact;
+mod interface;
+mod measure;
+pub mod referee;
+mod stiffness;
+
+pub use affine::{Affine, site_position};
+pub use measure::Measure;
+
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+
+use crate::lattice::triangular;
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::mesh::interfaces::Interfaces;
+use crate::with_law;
+use bulk::BulkBonds;
+use contact::Contacts;
+use interface::{InterfaceForce, State};
+
+/// Node positions or forces: x and y, one entry a node.
+pub type Planes = [Vec<f64>; 2];
+
+/// Elements in one parallel task. It sets no order of summation.
+const CHUNK: usize = 128;
+
+/// Why no forces can be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ForceError {
+    #[error("node {node} (element {element}) has no finite position")]
+    NotFinite { node: usize, element: usize },
+    #[error("element {element} at x = {x:.3} nm, y = {y:.3} nm turned inside out")]
+    Inverted { element: usize, x: f64, y: f64 },
+}
+
+/// The force computation of one specimen: its mesh and material and what it remembers between steps.
+pub struct Forces {
+    mesh: Mesh,
+    material: Material,
+    interfaces: Interfaces,
+    bulk: BulkBonds,
+    /// How the interfaces stand; a state is never left for a tighter one.
+    states: Vec<State>,
+    contacts: Contacts,
+    interface_forces: Vec<InterfaceForce>,
+    searches: u64,
+    search_time: Duration,
+}
+
+impl Forces {
+    /// Bonds this much longer than the cutoff (in spacings) are listed with the strings, so that an intact interface
+    /// stays intact under moderate strain.
+    const LISTED_BEYOND_CUTOFF: f64 = 0.3;
+
+    pub fn new(mesh: Mesh, material: Material) -> Self {
+        let cutoff = material.interaction.cutoff() / material.spacing;
+        let listed = cutoff + Self::LISTED_BEYOND_CUTOFF;
+        let interfaces = Interfaces::new(&mesh, listed);
+        let state = |severed: bool| if severed { State::Open } else { State::Tight };
+        let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
+        let bulk = BulkBonds::new(&mesh, listed);
+        let interface_forces = vec![InterfaceForce::default(); interfaces.pairs.len()];
+        Self { mesh, material, interfaces, bulk, states, contacts: Contacts::default(), interface_forces, searches: 0, search_time: Duration::ZERO }
+    }
+
+    pub fn mesh(&self) -> &Mesh {
+        &self.mesh
+    }
+
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    /// Length in spacings of the shortest bonds that strings and bulk do not list.
+    fn unlisted_length(&self) -> f64 {
+        let cutoff = self.material.interaction.cutoff() / self.material.spacing;
+        triangular::next_length(cutoff + Self::LISTED_BEYOND_CUTOFF)
+    }
+
+    /// Numbers of the interfaces that have left the intact path, ascending: the only memory that a restart must keep.
+    pub fn open_interfaces(&self) -> Vec<u32> {
+        (0..self.states.len() as u32).filter(|&number| self.is_open(number as usize)).collect()
+    }
+
+    /// Puts back what [`Self::open_interfaces`] gave.
+    pub fn restore_open_interfaces(&mut self, open: &[u32]) {
+        self.states.fill(State::Tight);
+        open.iter().for_each(|&number| self.states[number as usize] = State::Open);
+        self.contacts.forget();
+    }
+
+    /// How often neighbours were searched, and for how many seconds.
+    pub fn search_cost(&self) -> (u64, f64) {
+        (self.searches, self.search_time.as_secs_f64())
+    }
+
+    #[inline(always)]
+    fn is_open(&self, interface: usize) -> bool {
+        self.states[interface] == State::Open
+    }
+
+    /// Forces on all nodes, eV/nm.
+    pub fn compute(&mut self, position: &Planes, force: &mut Planes) -> Result<(), ForceError> {
+        with_law!(self.material.interaction, law => {
+            self.sum_interfaces(&law, position);
+            self.prepare_contacts(position)?;
+            self.contacts.sum(&law, &self.mesh, self.material.spacing, position);
+            self.assemble(&law, position, force);
+        });
+        Ok(())
+    }
+
+    /// Brings lists and states of interfaces up to date with the positions without computing forces.
+    pub fn refresh(&mut self, position: &Planes) -> Result<(), ForceError> {
+        with_law!(self.material.interaction, law => self.sum_interfaces(&law, position));
+        self.prepare_contacts(position)
+    }
+
+    /// Sums the strings of interfaces that are not open, and notes those that loosen or open.
+    fn sum_interfaces<S: crate::potential::PairShape>(
+        &mut self,
+        law: &crate::potential::CutPotential<S>,
+        position: &Planes,
+    ) {
+        let limit = interface::IntactLimit {
+            cutoff: law.cutoff(),
+            unlisted: self.unlisted_length(),
+            spacing: self.material.spacing,
+        };
+        let (mesh, interfaces, states) = (&self.mesh, &self.interfaces, &self.states);
+        let changed: Vec<(usize, State)> = self
+            .interface_forces
+            .par_chunks_mut(CHUNK)
+            .enumerate()
+            .flat_map_iter(|(chunk, sums)| {
+                let mut changed = Vec::new();
+                for (k, sum) in sums.iter_mut().enumerate() {
+                    let number = chunk * CHUNK + k;
+                    if states[number] == State::Open {
+                        continue;
+                    }
+                    let pair = interface::Pair::new(mesh, interfaces, number, position);
+                    let state = pair.state(&limit);
+                    if state > states[number] {
+                        changed.push((number, state));
+                    }
+                    if state != State::Open {
+                        *sum = pair.force(law, interfaces.strings(number));
+                    }
+                }
+                changed
+            })
+            .collect();
+        if !changed.is_empty() {
+            changed.into_iter().for_each(|(number, state)| self.states[number] = state);
+            self.contacts.forget();
+        }
+    }
+
+    fn prepare_contacts(&mut self, position: &Planes) -> Result<(), ForceError> {
+        if self.contacts.are_current(&self.mesh, position) {
+            return Ok(());
+        }
+        self.check_sound(position)?;
+        let field = contact::Field { mesh: &self.mesh, interfaces: &self.interfaces, states: &self.states };
+        let start = Instant::now();
+        self.contacts = Contacts::search(&field, &self.material, position);
+        self.searches += 1;
+        self.search_time += start.elapsed();
+        Ok(())
+    }
+
+    /// Refuses positions that are not finite and triangles that are inside out.
+    fn check_sound(&self, position: &Planes) -> Result<(), ForceError> {
+        for (element, shape) in self.mesh.elements.iter().enumerate() {
+            let first = self.mesh.first_node(element);
+            for node in first..first + shape.node_count() {
+                if !(position[0][node].is_finite() && position[1][node].is_finite()) {
+                    return Err(ForceError::NotFinite { node, element });
+                }
+            }
+            if !shape.is_atom() {
+                let affine = Affine::of_triangle(shape.size, first, position);
+                if affine.determinant() <= 0.0 {
+                    let [x, y] = affine.origin;
+                    return Err(ForceError::Inverted { element, x, y });
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds up bulk, interfaces and contacts on the nodes, element by element.
+    fn assemble<S: crate::potential::PairShape>(
+        &self,
+        law: &crate::potential::CutPotential<S>,
+        position: &Planes,
+        force: &mut Planes,
+    ) {
+        let triangles = self.mesh.triangles;
+        let [force_x, force_y] = force;
+        let (triangle_x, atom_x) = force_x.split_at_mut(3 * triangles);
+        let (triangle_y, atom_y) = force_y.split_at_mut(3 * triangles);
+        let planes = triangle_x.par_chunks_mut(3 * CHUNK).zip(triangle_y.par_chunks_mut(3 * CHUNK));
+        planes.enumerate().for_each(|(chunk, (x, y))| {
+            for k in 0..x.len() / 3 {
+                let nodal = self.triangle_force(law, chunk * CHUNK + k, position);
+                for (node, [fx, fy]) in nodal.into_iter().enumerate() {
+                    x[3 * k + node] = fx;
+                    y[3 * k + node] = fy;
+                }
+            }
+        });
+        let planes = atom_x.par_chunks_mut(CHUNK).zip(atom_y.par_chunks_mut(CHUNK));
+        planes.enumerate().for_each(|(chunk, (x, y))| {
+            for k in 0..x.len() {
+                let element = triangles + chunk * CHUNK + k;
+                let sites = self.contacts.sites_of(element);
+                [x[k], y[k]] = if sites.is_empty() { [0.0, 0.0] } else { self.contacts.force_on(sites.start) };
+            }
+        });
+    }
+
+    fn triangle_force<S: crate::potential::PairShape>(
+        &self,
+        law: &crate::potential::CutPotential<S>,
+        element: usize,
+        position: &Planes,
+    ) -> [[f64; 2]; 3] {
+        let shape = &self.mesh.elements[element];
+        let affine = Affine::of_triangle(shape.size, self.mesh.first_node(element), position);
+        let mut nodal = self.bulk.force(law, shape.size, &affine, self.material.spacing);
+        for &number in self.interfaces.of(element) {
+            if self.is_open(number as usize) {
+                continue;
+            }
+            let is_first = self.interfaces.pairs[number as usize].first as usize == element;
+            let sum = &self.interface_forces[number as usize];
+            let side = if is_first { &sum.first } else { &sum.second };
+            (0..3).for_each(|k| (0..2).for_each(|axis| nodal[k][axis] += side[k][axis]));
+        }
+        for site in self.contacts.sites_of(element) {
+            let weights = shape.shape_functions(self.contacts.local(site));
+            let force = self.contacts.force_on(site);
+            (0..3).for_each(|k| (0..2).for_each(|axis| nodal[k][axis] += weights[k] * force[axis]));
+        }
+        nodal
+    }
+}

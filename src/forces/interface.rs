@@ -1,0 +1,166 @@
+//! Bonds between two triangles that lie side by side as in the perfect lattice.
+
+use super::Planes;
+use super::affine::{Affine, smallest_stretch};
+use crate::mesh::Mesh;
+use crate::mesh::element::Element;
+use crate::mesh::interfaces::{BondString, Interfaces};
+use crate::potential::{CutPotential, PairShape};
+
+/// Forces that two triangles put on each other's nodes, eV/nm.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct InterfaceForce {
+    pub first: [[f64; 2]; 3],
+    pub second: [[f64; 2]; 3],
+}
+
+/// How two neighbouring triangles stand to each other.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
+pub enum State {
+    /// As in the lattice, with little strain between them: their strings say it all.
+    #[default]
+    Tight,
+    /// Their strings still hold all their bonds, but other elements may come near.
+    Loose,
+    /// Their bonds are found by search.
+    Open,
+}
+
+/// What the test of an interface compares.
+pub struct IntactLimit {
+    /// nm
+    pub cutoff: f64,
+    /// Length of the shortest bonds that no string holds, in spacings.
+    pub unlisted: f64,
+    /// nm
+    pub spacing: f64,
+}
+
+/// Two neighbouring triangles as they are now.
+pub struct Pair<'a> {
+    first: &'a Element,
+    second: &'a Element,
+    first_map: Affine,
+    second_map: Affine,
+    anchors: [[i32; 2]; 2],
+}
+
+impl<'a> Pair<'a> {
+    #[inline(always)]
+    pub fn new(mesh: &'a Mesh, interfaces: &Interfaces, number: usize, position: &Planes) -> Self {
+        let pair = interfaces.pairs[number];
+        let [a, b] = [pair.first as usize, pair.second as usize];
+        let [first, second] = [&mesh.elements[a], &mesh.elements[b]];
+        Self {
+            first,
+            second,
+            first_map: Affine::of_triangle(first.size, mesh.first_node(a), position),
+            second_map: Affine::of_triangle(second.size, mesh.first_node(b), position),
+            anchors: interfaces.kinds[pair.kind as usize].anchors,
+        }
+    }
+
+    /// Whether the strings hold every pair of sites within the cutoff, and whether the triangles are still in place.
+    ///
+    /// A pair that is in no string was at least `unlisted` apart. With F the gradient of the second triangle, D the
+    /// difference of the two gradients and g the gap between the two maps where the triangles face each other, the
+    /// pair a, a + b is now F b + g + D (a - c) apart, c the facing point; a is no farther from it than
+    /// `LEVER` |b| plus a spacing. So all are beyond the cutoff if (smallest stretch of F - LEVER |D|) unlisted
+    /// - |g| - |D| spacing is.
+    #[inline(always)]
+    pub fn state(&self, limit: &IntactLimit) -> State {
+        /// Triangles that face along an edge need 1, those that meet at a corner over a 60 degree wedge 1/sin 60.
+        const LEVER: f64 = 1.5;
+        /// In spacings. While all neighbours of a triangle are closer to their lattice places than this, nothing else
+        /// comes within the cutoff without all but touching one of them.
+        const LOOSE: f64 = 0.2;
+        let first = self.first_map.deformation_gradient(self.first.sign, limit.spacing);
+        let second = self.second_map.deformation_gradient(self.second.sign, limit.spacing);
+        let mut squared_difference = 0.0;
+        for k in 0..2 {
+            for axis in 0..2 {
+                let difference = second[k][axis] - first[k][axis];
+                squared_difference += difference * difference;
+            }
+        }
+        let difference = squared_difference.sqrt();
+        let gap = self.squared_gap(self.anchors[0]).max(self.squared_gap(self.anchors[1])).sqrt();
+        let stretch = smallest_stretch(second) - LEVER * difference;
+        let spacing = limit.spacing;
+        let displaced = gap + difference * spacing;
+        let beyond = stretch > 0.0 && stretch * limit.unlisted * spacing - displaced >= limit.cutoff;
+        match beyond {
+            true if displaced <= LOOSE * spacing => State::Tight,
+            true => State::Loose,
+            // Also where the positions are not numbers.
+            false => State::Open,
+        }
+    }
+
+    /// Squared distance between the places where the two triangles would put one lattice site.
+    #[inline(always)]
+    fn squared_gap(&self, anchor: [i32; 2]) -> f64 {
+        let site = [self.first.column + anchor[0], self.first.row + anchor[1]];
+        let [a, b] = [self.first_map.at(self.first.local(site)), self.second_map.at(self.second.local(site))];
+        let [x, y] = [b[0] - a[0], b[1] - a[1]];
+        x * x + y * y
+    }
+
+    /// Bond vector at the start of a string and its change from bond to bond.
+    #[inline(always)]
+    pub fn string_vectors(&self, string: &BondString) -> [[f64; 2]; 2] {
+        let [a, b] = [self.first_map.at(string.first), self.second_map.at(string.second)];
+        let [da, db] = [self.first_map.vector(string.first_step), self.second_map.vector(string.second_step)];
+        [[b[0] - a[0], b[1] - a[1]], [db[0] - da[0], db[1] - da[1]]]
+    }
+
+    /// Forces of all strings on the nodes of both triangles: the weights along a string are linear too, so that the
+    /// sums of the bond forces and of their first moments say it all.
+    #[inline(always)]
+    pub fn force<S: PairShape>(&self, law: &CutPotential<S>, strings: &[BondString]) -> InterfaceForce {
+        let mut first = NodalSum::default();
+        let mut second = NodalSum::default();
+        for string in strings {
+            let [start, step] = self.string_vectors(string);
+            let [mut sum, mut moment] = [[0.0; 2]; 2];
+            for t in 0..string.count {
+                let t = f64::from(t);
+                let [x, y] = [start[0] + t * step[0], start[1] + t * step[1]];
+                let pull = law.slope(x * x + y * y);
+                let [x, y] = [pull * x, pull * y];
+                sum = [sum[0] + x, sum[1] + y];
+                moment = [moment[0] + t * x, moment[1] + t * y];
+            }
+            first.add(string.first, string.first_step, sum, moment, 1.0);
+            second.add(string.second, string.second_step, sum, moment, -1.0);
+        }
+        InterfaceForce { first: first.on_nodes(self.first.size), second: second.on_nodes(self.second.size) }
+    }
+}
+
+/// Force on a triangle and its moments with the two local coordinates.
+#[derive(Default)]
+struct NodalSum {
+    total: [f64; 2],
+    along: [[f64; 2]; 2],
+}
+
+impl NodalSum {
+    #[inline(always)]
+    fn add(&mut self, start: [i32; 2], step: [i32; 2], sum: [f64; 2], moment: [f64; 2], sign: f64) {
+        for axis in 0..2 {
+            self.total[axis] += sign * sum[axis];
+            for k in 0..2 {
+                let weighted = f64::from(start[k]) * sum[axis] + f64::from(step[k]) * moment[axis];
+                self.along[k][axis] += sign * weighted;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn on_nodes(&self, size: i32) -> [[f64; 2]; 3] {
+        let edge = 1.0 / f64::from(size - 1);
+        let [p, q] = self.along.map(|sum| [sum[0] * edge, sum[1] * edge]);
+        [[self.total[0] - p[0] - q[0], self.total[1] - p[1] - q[1]], p, q]
+    }
+}

@@ -1,0 +1,120 @@
+//! What is not needed in every step: energy, pairs within the cutoff, virial stress, and bounds on the stiffness.
+
+use rayon::prelude::*;
+
+use super::affine::Affine;
+use super::{CHUNK, ForceError, Forces, Planes, interface};
+
+/// Totals and per-element sums at one moment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measure {
+    /// Potential energy, eV.
+    pub energy: f64,
+    /// Number of pairs within the cutoff; severed pairs do not count.
+    pub pairs: f64,
+    /// For every element the sum over its bonds of phi'/r d d (half of those it shares), components xx, yy, xy, eV.
+    pub virial: Vec<[f64; 3]>,
+}
+
+/// A bond as one element sees it.
+pub(super) struct Bond {
+    pub vector: [f64; 2],
+    /// How many bonds it stands for.
+    pub count: f64,
+    pub kind: BondKind,
+}
+
+pub(super) enum BondKind {
+    /// Inside a triangle, along this lattice vector in local coordinates.
+    Inside { local: [i32; 2] },
+    /// Between this site of the element and another element, which counts the bond too.
+    Across { local: [i32; 2], severed: bool },
+}
+
+impl Forces {
+    /// Energy, pairs and virial of the current state.
+    pub fn measure(&mut self, position: &Planes) -> Result<Measure, ForceError> {
+        self.refresh(position)?;
+        self.contacts.place_sites(&self.mesh, position);
+        let chunks = self.mesh.elements.len().div_ceil(CHUNK);
+        let parts: Vec<Measure> = (0..chunks)
+            .into_par_iter()
+            .map(|chunk| {
+                let mut part = Measure::default();
+                for element in chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK) {
+                    let virial = self.measure_element(element, position, &mut part);
+                    part.virial.push(virial);
+                }
+                part
+            })
+            .collect();
+        let mut total = Measure { virial: Vec::with_capacity(self.mesh.elements.len()), ..Measure::default() };
+        for part in parts {
+            total.energy += part.energy;
+            total.pairs += part.pairs;
+            total.virial.extend(part.virial);
+        }
+        Ok(total)
+    }
+
+    fn measure_element(&self, element: usize, position: &Planes, part: &mut Measure) -> [f64; 3] {
+        let mut virial = [0.0; 3];
+        let squared_cutoff = self.material.interaction.cutoff().powi(2);
+        self.for_each_bond(element, position, |bond| {
+            let [x, y] = bond.vector;
+            let squared = x * x + y * y;
+            let (share, severed) = match bond.kind {
+                BondKind::Inside { .. } => (bond.count, false),
+                BondKind::Across { severed, .. } => (0.5 * bond.count, severed),
+            };
+            let value = self.contacts.value(&self.material, squared, severed);
+            part.energy += share * value.energy;
+            part.pairs += if squared < squared_cutoff && !severed { share } else { 0.0 };
+            let pull = share * value.slope;
+            virial = [virial[0] + pull * x * x, virial[1] + pull * y * y, virial[2] + pull * x * y];
+        });
+        virial
+    }
+
+    /// Calls with every bond of an element: those inside it once, those to other elements as seen from its side.
+    /// Lists and site positions must be up to date.
+    pub(super) fn for_each_bond(&self, element: usize, position: &Planes, mut call: impl FnMut(Bond)) {
+        let shape = &self.mesh.elements[element];
+        let cutoff = self.material.interaction.cutoff();
+        if !shape.is_atom() {
+            let affine = Affine::of_triangle(shape.size, self.mesh.first_node(element), position);
+            for bond in self.bulk.within(shape.size, &affine, self.material.spacing, cutoff) {
+                let kind = BondKind::Inside { local: bond.local };
+                call(Bond { vector: affine.vector(bond.local), count: bond.count, kind });
+            }
+            for &number in self.interfaces.of(element).iter().filter(|&&number| !self.is_open(number as usize)) {
+                self.for_each_string_bond(element, number as usize, position, &mut call);
+            }
+        }
+        for site in self.contacts.sites_of(element) {
+            let local = self.contacts.local(site);
+            self.contacts.for_each_partner(site, |vector, severed| {
+                call(Bond { vector, count: 1.0, kind: BondKind::Across { local, severed } });
+            });
+        }
+    }
+
+    fn for_each_string_bond(&self, element: usize, number: usize, position: &Planes, call: &mut impl FnMut(Bond)) {
+        let pair = interface::Pair::new(&self.mesh, &self.interfaces, number, position);
+        let is_first = self.interfaces.pairs[number].first as usize == element;
+        for string in self.interfaces.strings(number) {
+            let [start, step] = pair.string_vectors(string);
+            let (site, site_step) = if is_first {
+                (string.first, string.first_step)
+            } else {
+                (string.second, string.second_step)
+            };
+            for t in 0..string.count {
+                let along = f64::from(t);
+                let vector = [start[0] + along * step[0], start[1] + along * step[1]];
+                let local = [site[0] + t * site_step[0], site[1] + t * site_step[1]];
+                call(Bond { vector, count: 1.0, kind: BondKind::Across { local, severed: false } });
+            }
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! An upper bound of the highest frequency, for a time step that is stable for certain.
+
+use nalgebra::Matrix6;
+use rayon::prelude::*;
+
+use super::measure::{Bond, BondKind};
+use super::{CHUNK, ForceError, Forces, Planes};
+
+impl Forces {
+    /// Upper bound of the squared highest angular frequency in the current state, 1/ps^2; `masses` a node.
+    ///
+    /// The bonds inside a triangle couple its own nodes only. A bond between two elements stores at most twice what
+    /// its two ends would store each against a wall, (u_a - u_b) H (u_a - u_b)/2 <= u_a H+ u_a + u_b H+ u_b with H+
+    /// the positive part of the bond's stiffness. So the system is no stiffer than its elements one by one, and the
+    /// largest eigenvalue of the small matrices bounds that of the large one. For the perfect crystal of atoms the
+    /// bound 6 k/m is exact.
+    pub fn squared_frequency_bound(&mut self, position: &Planes, masses: &[f64]) -> Result<f64, ForceError> {
+        self.refresh(position)?;
+        self.contacts.place_sites(&self.mesh, position);
+        let chunks = self.mesh.elements.len().div_ceil(CHUNK);
+        let of_chunk = |chunk: usize| {
+            let elements = chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK);
+            elements.fold(0.0, |largest: f64, element| {
+                let stiffness = self.element_stiffness(element, position);
+                let nodes = self.mesh.elements[element].node_count();
+                largest.max(largest_eigenvalue(&stiffness, nodes, masses[self.mesh.first_node(element)], largest))
+            })
+        };
+        Ok((0..chunks).into_par_iter().map(of_chunk).reduce(|| 0.0, f64::max))
+    }
+
+    /// Bound of an element's stiffness, rows by node and component; an atom fills the first two.
+    fn element_stiffness(&self, element: usize, position: &Planes) -> Matrix6<f64> {
+        let shape = &self.mesh.elements[element];
+        let edge = f64::from((shape.size - 1).max(1));
+        let mut stiffness = Matrix6::zeros();
+        self.for_each_bond(element, position, |bond| {
+            let (weights, stiffnesses) = match bond.kind {
+                BondKind::Inside { local } => {
+                    let [p, q] = local.map(|step| f64::from(step) / edge);
+                    ([-p - q, p, q], self.bond_stiffness(&bond, false))
+                }
+                BondKind::Across { local, severed } => {
+                    let [along, across] = self.bond_stiffness(&bond, severed);
+                    (shape.shape_functions(local), [2.0 * along.max(0.0), 2.0 * across.max(0.0)])
+                }
+            };
+            let hessian = hessian(bond.vector, stiffnesses);
+            for a in 0..3 {
+                for b in 0..3 {
+                    let weight = weights[a] * weights[b];
+                    for (i, row) in hessian.iter().enumerate() {
+                        for (j, entry) in row.iter().enumerate() {
+                            stiffness[(2 * a + i, 2 * b + j)] += weight * entry;
+                        }
+                    }
+                }
+            }
+        });
+        stiffness
+    }
+
+    /// Stiffness of a bond along its direction and across it: phi'' and phi'/r.
+    fn bond_stiffness(&self, bond: &Bond, severed: bool) -> [f64; 2] {
+        let [x, y] = bond.vector;
+        let squared = x * x + y * y;
+        let along = self.contacts.curvature(&self.material, squared.sqrt(), severed);
+        let across = self.contacts.value(&self.material, squared, severed).slope;
+        [bond.count * along, bond.count * across]
+    }
+}
+
+/// Second derivative of a bond's energy with its vector.
+fn hessian([x, y]: [f64; 2], [along, across]: [f64; 2]) -> [[f64; 2]; 2] {
+    let difference = (along - across) / (x * x + y * y);
+    let mixed = difference * x * y;
+    [[across + difference * x * x, mixed], [mixed, across + difference * y * y]]
+}
+
+/// Largest eigenvalue over the mass; where the sum over a row shows that it is no larger than `known`, that instead.
+fn largest_eigenvalue(stiffness: &Matrix6<f64>, nodes: usize, mass: f64, known: f64) -> f64 {
+    let row_sum = stiffness.row_iter().map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>()).fold(0.0, f64::max);
+    if row_sum <= known * mass {
+        return known;
+    }
+    if nodes == 1 {
+        return stiffness.fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max() / mass;
+    }
+    stiffness.symmetric_eigenvalues().max() / mass
+}

@@ -1,0 +1,3 @@
+//! Perfect crystals: where the sites are and which vectors join neighbours.
+
+pub mod triangular;

@@ -1,0 +1,130 @@
+//! Prescribed motion: what moves the specimen from outside, and the work it does.
+
+use crate::mesh::Mesh;
+use crate::state::State;
+
+/// How the grips hold the specimen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Grip {
+    /// No motion along x.
+    Clamped,
+    /// Free along x.
+    Sliding,
+}
+
+/// Mode I at a constant nominal strain rate: the grips part at rate H, H the height between their inner edges.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Stretching {
+    /// 1/ps
+    pub rate: f64,
+    pub grip: Grip,
+    /// The interior starts with the velocity rate (y - y_mid), so that no shock enters.
+    pub ramp: bool,
+    /// Nodes of the lower and of the upper grip.
+    nodes: [Vec<u32>; 2],
+    /// Speed of each grip, nm/ps.
+    speed: f64,
+}
+
+impl Stretching {
+    pub fn new(mesh: &Mesh, rate: f64, grip: Grip, ramp: bool) -> Self {
+        let mut nodes = [Vec::new(), Vec::new()];
+        for (number, element) in mesh.elements.iter().enumerate() {
+            let side = mesh.grip_of(element);
+            if side != 0 {
+                let first = mesh.first_node(number) as u32;
+                nodes[usize::from(side > 0)].extend(first..first + element.node_count() as u32);
+            }
+        }
+        let [low, high] = mesh.grip_edges();
+        Self { rate, grip, ramp, nodes, speed: 0.5 * rate * (high - low) }
+    }
+
+    /// Takes hold of the grips and sets the velocities of the start.
+    pub fn start(&self, mesh: &Mesh, state: &mut State) {
+        if self.ramp {
+            let [low, high] = mesh.grip_edges();
+            let middle = 0.5 * (low + high);
+            for node in 0..state.nodes() {
+                state.velocity[1][node] = self.rate * (state.position[1][node] - middle);
+            }
+        }
+        self.hold(state);
+    }
+
+    /// Prescribes the motion of the grip nodes.
+    pub fn hold(&self, state: &mut State) {
+        for (nodes, speed) in self.nodes.iter().zip([-self.speed, self.speed]) {
+            for &node in nodes {
+                let node = node as usize;
+                state.mobility[1][node] = 0.0;
+                state.velocity[1][node] = speed;
+                if self.grip == Grip::Clamped {
+                    state.mobility[0][node] = 0.0;
+                    state.velocity[0][node] = 0.0;
+                }
+            }
+        }
+    }
+
+    /// Nominal strain after a time.
+    pub fn strain(&self, time: f64) -> f64 {
+        self.rate * time
+    }
+
+    /// Force with which the specimen pulls the grips together, eV/nm: half of what it pulls on both.
+    pub fn grip_force(&self, state: &State) -> f64 {
+        let pull = |nodes: &[u32]| nodes.iter().map(|&node| state.force[1][node as usize]).sum::<f64>();
+        0.5 * (pull(&self.nodes[0]) - pull(&self.nodes[1]))
+    }
+
+    /// Power of the grips, eV/ps.
+    pub fn power(&self, state: &State) -> f64 {
+        2.0 * self.speed * self.grip_force(state)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Plan;
+    use crate::mesh::sites::Layout;
+
+    fn mesh() -> Mesh {
+        let layout = Layout { block: 10, rows: 4, triangles: 5 };
+        Mesh::new(&Plan { layout, element: 10, regions: vec![], crack_length: None, grip_rows: 10, spacing: 1.0 })
+    }
+
+    #[test]
+    fn the_grips_part_at_the_strain_rate_times_the_height_between_them() {
+        let mesh = mesh();
+        let loading = Stretching::new(&mesh, 1e-3, Grip::Clamped, true);
+        let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
+        loading.start(&mesh, &mut state);
+        let [low, high] = mesh.grip_edges();
+        let [bottom, top] = [0, state.nodes() - 1].map(|node| state.velocity[1][node]);
+        assert!((top - bottom - 1e-3 * (high - low)).abs() < 1e-15);
+        let interior = 3 * 5 + 1;
+        let expected = 1e-3 * (state.position[1][interior] - 0.5 * (low + high));
+        assert!((state.velocity[1][interior] - expected).abs() < 1e-15);
+        assert_eq!(state.mobility[0][0], 0.0);
+        assert!(state.mobility[0][interior] > 0.0);
+        assert_eq!(loading.strain(20.0), 0.02);
+    }
+
+    #[test]
+    fn sliding_grips_leave_x_free_and_power_is_force_times_speed() {
+        let mesh = mesh();
+        let loading = Stretching::new(&mesh, 1e-3, Grip::Sliding, false);
+        let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
+        loading.start(&mesh, &mut state);
+        assert!(state.mobility[0][0] > 0.0 && state.mobility[1][0] == 0.0);
+        assert_eq!(state.velocity[1][15], 0.0);
+        let last = state.nodes() - 1;
+        state.force[1][0] = 3.0;
+        state.force[1][last] = -3.0;
+        assert_eq!(loading.grip_force(&state), 3.0);
+        let [low, high] = mesh.grip_edges();
+        assert!((loading.power(&state) - 3.0 * 1e-3 * (high - low)).abs() < 1e-15);
+    }
+}

@@ -1,0 +1,113 @@
+//! What a lattice and a potential make together: spacing at zero pressure, elastic constants, wave speeds, surfaces.
+
+mod elasticity;
+mod spacing;
+
+pub use elasticity::{Elasticity, WaveSpeeds};
+pub use spacing::zero_pressure_spacing;
+
+use crate::lattice::triangular;
+use crate::potential::Interaction;
+
+/// A crystal at rest and without pressure. Any consistent units; the program uses nm, ps, eV.
+#[derive(Clone, Copy, Debug)]
+pub struct Material {
+    pub interaction: Interaction,
+    /// Lattice spacing r0.
+    pub spacing: f64,
+    /// Mass of one site, energy time^2 / length^2.
+    pub site_mass: f64,
+}
+
+impl Material {
+    /// The crystal of this potential in its zero-pressure state.
+    pub fn new(interaction: Interaction, site_mass: f64) -> Option<Self> {
+        let spacing = zero_pressure_spacing(&interaction)?;
+        Some(Self { interaction, spacing, site_mass })
+    }
+
+    /// Mass per area.
+    pub fn density(&self) -> f64 {
+        self.site_mass / (triangular::SITE_AREA * self.spacing * self.spacing)
+    }
+
+    /// Energy per length to part the crystal along a close-packed row, without relaxation: every bond between the
+    /// two halves loses its energy. Under truncation a bond is worth phi(r_c) - phi(r).
+    pub fn fracture_energy(&self) -> f64 {
+        let jump = self.interaction.jump_at_cutoff();
+        let reach = self.interaction.cutoff() / self.spacing;
+        let bonds = triangular::half_vectors_within(reach).into_iter().filter(|vector| vector[1] > 0);
+        let lost = bonds.map(|vector| {
+            let squared = f64::from(triangular::squared_length(vector)) * self.spacing * self.spacing;
+            f64::from(vector[1]) * (jump - self.interaction.evaluate(squared).energy)
+        });
+        lost.sum::<f64>() / self.spacing
+    }
+
+    /// Distance beyond which a bond between nearest neighbours counts as broken: the cutoff, or where longer ranges
+    /// would hide the break, one and a half spacings.
+    pub fn breaking_length(&self) -> f64 {
+        const FARTHEST_BREAK: f64 = 1.5;
+        self.interaction.cutoff().min(FARTHEST_BREAK * self.spacing)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::potential::{AtCutoff, CutPotential, LennardJones};
+
+    pub(crate) fn lennard_jones(cutoff: f64) -> Material {
+        let shape = LennardJones { epsilon: 1.0, sigma: 1.0 };
+        let law = CutPotential::new(shape, cutoff, AtCutoff::Truncated);
+        Material::new(Interaction::LennardJones(law), 1.0).expect("Lennard-Jones has a zero-pressure lattice")
+    }
+
+    /// The references are printed with four to six digits.
+    const PRINTED_DIGITS: f64 = 6e-5;
+
+    #[test]
+    fn spacing_moduli_speeds_and_surface_energy_are_the_references_of_each_cutoff() {
+        // cutoff, spacing, C11, C12, E, c_L, c_T, c_R, fracture energy of a row (with jump at the cutoff removed)
+        let references = [
+            (1.5, 1.122462, 74.235, 24.745, 65.987, 9.0, 5.1962, 4.7774),
+            (2.0, 1.115934, 80.662, 26.887, 71.700, 9.3269, 5.3849, 4.9509),
+            (2.5, 1.113201, 83.499, 27.833, 74.222, 9.4663, 5.4654, 5.0249),
+        ];
+        for (cutoff, spacing, c11, c12, young, c_l, c_t, c_r) in references {
+            let material = lennard_jones(cutoff);
+            let elasticity = Elasticity::of(&material);
+            let speeds = WaveSpeeds::of(&material);
+            let pairs = [
+                (material.spacing, spacing),
+                (elasticity.c11, c11),
+                (elasticity.c12, c12),
+                (elasticity.c66, c12),
+                (elasticity.young_modulus(), young),
+                (speeds.longitudinal, c_l),
+                (speeds.transverse, c_t),
+                (speeds.rayleigh, c_r),
+            ];
+            for (found, expected) in pairs {
+                assert!((found / expected - 1.0).abs() < PRINTED_DIGITS, "cutoff {cutoff}: {found} for {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn nearest_neighbour_wave_speeds_are_9_and_root_27_exactly() {
+        let speeds = WaveSpeeds::of(&lennard_jones(1.5));
+        assert!((speeds.longitudinal - 9.0).abs() < 1e-12);
+        assert!((speeds.transverse - 27f64.sqrt()).abs() < 1e-12);
+    }
+
+    #[test]
+    fn parting_a_row_costs_two_full_wells_a_spacing_unless_truncated() {
+        let shape = LennardJones { epsilon: 1.0, sigma: 1.0 };
+        let smooth = CutPotential::new(shape, 1.9, AtCutoff::Smooth { from: 1.5 });
+        let material = Material::new(Interaction::LennardJones(smooth), 1.0).unwrap();
+        assert!((material.fracture_energy() - 1.7818).abs() < PRINTED_DIGITS);
+        let truncated = lennard_jones(0.34 / 0.2277);
+        assert!((truncated.fracture_energy() / 1.7818 - 0.672).abs() < 5e-4);
+    }
+}

@@ -1,0 +1,235 @@
+//! Specimens: which lattice sites there are, which element carries each, and which elements are neighbours.
+//!
+//! A mesh knows no forces. Elements share no nodes: triangles come first, three nodes each, then the atoms, one each.
+
+pub mod cut;
+pub mod element;
+pub mod interfaces;
+pub mod region;
+pub mod sites;
+mod tiling;
+
+use crate::lattice::triangular;
+use cut::Cut;
+use element::Element;
+use region::Region;
+use sites::{Layout, SiteSet};
+
+/// What a mesh is made from. Lengths in units of the lattice spacing unless said otherwise.
+#[derive(Clone, Debug)]
+pub struct Plan {
+    pub layout: Layout,
+    /// Atoms an edge of the elements outside the regions.
+    pub element: u16,
+    /// Regions, in nm.
+    pub regions: Vec<Region>,
+    /// Length of an edge crack from the left at mid-height.
+    pub crack_length: Option<f64>,
+    /// Lattice rows of each grip, at the bottom and at the top.
+    pub grip_rows: i32,
+    /// Lattice spacing, nm.
+    pub spacing: f64,
+}
+
+/// Elements, nodes and sites of a specimen in its reference state.
+#[derive(Clone, Debug)]
+pub struct Mesh {
+    pub sites: SiteSet,
+    /// Triangles by falling size and from bottom to top, then the atoms.
+    pub elements: Vec<Element>,
+    /// Number of triangles among the elements.
+    pub triangles: usize,
+    /// The element of every site.
+    pub owner: Vec<u32>,
+    pub cut: Option<Cut>,
+    /// Lattice spacing, nm.
+    pub spacing: f64,
+    /// Lattice rows of each grip.
+    pub grip_rows: i32,
+}
+
+impl Mesh {
+    pub fn new(plan: &Plan) -> Self {
+        let sites = SiteSet::new(plan.layout);
+        let middle = sites.middle_row();
+        let mut breaks = vec![0, plan.grip_rows, middle, sites.rows() - plan.grip_rows, sites.rows()];
+        breaks.sort_unstable();
+        breaks.dedup();
+        let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
+        let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
+        let mut owner = vec![u32::MAX; sites.len()];
+        for (number, element) in elements.iter().enumerate() {
+            for site in element.sites() {
+                owner[sites.index(site).expect("elements lie inside the specimen")] = number as u32;
+            }
+        }
+        let left = sites.left();
+        let cut = plan.crack_length.map(|length| Cut { row: middle, from: left - 1.0, to: left + length });
+        Self { sites, elements, triangles, owner, cut, spacing: plan.spacing, grip_rows: plan.grip_rows }
+    }
+
+    pub fn node_count(&self) -> usize {
+        self.first_node(self.elements.len())
+    }
+
+    /// Number of an element's first node.
+    #[inline(always)]
+    pub fn first_node(&self, element: usize) -> usize {
+        if element <= self.triangles { 3 * element } else { 2 * self.triangles + element }
+    }
+
+    /// Reference position of a site, nm, in lattice coordinates.
+    pub fn reference(&self, site: [i32; 2]) -> [f64; 2] {
+        triangular::position(site).map(|component| component * self.spacing)
+    }
+
+    /// Reference positions of the nodes, x and y, nm.
+    pub fn node_positions(&self) -> [Vec<f64>; 2] {
+        let corners = self.elements.iter().flat_map(Element::corners);
+        let [mut x, mut y] = [Vec::with_capacity(self.node_count()), Vec::with_capacity(self.node_count())];
+        for corner in corners {
+            let position = self.reference(corner);
+            x.push(position[0]);
+            y.push(position[1]);
+        }
+        [x, y]
+    }
+
+    /// Lumped mass of every node in site masses.
+    pub fn lumped_masses(&self) -> Vec<f64> {
+        let each = self.elements.iter();
+        each.flat_map(|element| std::iter::repeat_n(element.lumped_mass(), element.node_count())).collect()
+    }
+
+    pub fn owner_of(&self, site: [i32; 2]) -> Option<usize> {
+        self.sites.index(site).map(|number| self.owner[number] as usize)
+    }
+
+    /// Whether the pair of sites never bonds because its line crosses a cut.
+    #[inline(always)]
+    pub fn severed(&self, a: [i32; 2], b: [i32; 2]) -> bool {
+        self.cut.is_some_and(|cut| cut.severs(a, b))
+    }
+
+    /// y of the crack plane, or of mid-height where there is no crack, nm.
+    pub fn middle_height(&self) -> f64 {
+        (f64::from(self.sites.middle_row()) - 0.5) * triangular::ROW_HEIGHT * self.spacing
+    }
+
+    /// y of the inner edges of the grips, nm.
+    pub fn grip_edges(&self) -> [f64; 2] {
+        let rows = [self.grip_rows - 1, self.sites.rows() - self.grip_rows];
+        rows.map(|row| f64::from(row) * triangular::ROW_HEIGHT * self.spacing)
+    }
+
+    /// -1, 0 or 1: in the lower grip, between the grips, in the upper one.
+    pub fn grip_of(&self, element: &Element) -> i32 {
+        if element.row < self.grip_rows {
+            -1
+        } else if element.row >= self.sites.rows() - self.grip_rows {
+            1
+        } else {
+            0
+        }
+    }
+}
+
+/// The largest element size allowed at every site.
+fn target_sizes(plan: &Plan, sites: &SiteSet) -> Vec<u16> {
+    if plan.regions.is_empty() {
+        return vec![plan.element; sites.len()];
+    }
+    let left = sites.left();
+    let middle = (f64::from(sites.middle_row()) - 0.5) * triangular::ROW_HEIGHT;
+    let size = |site: [i32; 2]| {
+        let [x, y] = triangular::position(site);
+        let place = [(x - left) * plan.spacing, (y - middle) * plan.spacing];
+        let finer = plan.regions.iter().filter(|region| region.shape.contains(place)).map(|region| region.element);
+        finer.chain([plan.element]).min().expect("the specimen's own size is there")
+    };
+    sites.iter().map(size).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::region::Shape;
+    use super::*;
+
+    fn plan(layout: Layout, element: u16) -> Plan {
+        Plan { layout, element, regions: vec![], crack_length: None, grip_rows: layout.block, spacing: 0.25559 }
+    }
+
+    fn check_cover(mesh: &Mesh) {
+        assert!(mesh.owner.iter().all(|&owner| owner != u32::MAX), "every site has an element");
+        let held: usize = mesh.elements.iter().map(Element::site_count).sum();
+        assert_eq!(held, mesh.sites.len(), "and only one");
+    }
+
+    #[test]
+    fn table_5_1_counts_come_out_exactly() {
+        // [Deng2011] Table 5-1, and the 32,060 elements of cases 1 and 2; length and width in nm.
+        let rows = [
+            ("A", 1127.0, 354.0, 128_160, 384_480, 7_048_800),
+            ("D", 566.0, 354.0, 64_160, 192_480, 3_528_800),
+            ("E", 1127.0, 708.0, 256_320, 768_960, 14_097_600),
+        ];
+        let spacing = 2f64.powf(1.0 / 6.0) * 0.2277;
+        for (model, length, width, elements, nodes, atoms) in rows {
+            let layout = Layout::nearest(length / spacing, width / spacing, 10);
+            let mesh = Mesh::new(&Plan { spacing, ..plan(layout, 10) });
+            assert_eq!(mesh.elements.len(), elements, "model {model}");
+            assert_eq!(mesh.node_count(), nodes, "model {model}");
+            assert_eq!(mesh.sites.len(), atoms, "model {model}");
+            check_cover(&mesh);
+        }
+        let case_1 = Layout { block: 10, rows: 140, triangles: 229 };
+        assert_eq!(Mesh::new(&plan(case_1, 10)).elements.len(), 32_060);
+    }
+
+    #[test]
+    fn any_element_size_covers_the_same_sites_and_leaves_few_over() {
+        let layout = Layout { block: 10, rows: 12, triangles: 41 };
+        for element in [1, 3, 4, 7, 13, 20, 40] {
+            let mesh = Mesh::new(&plan(layout, element));
+            check_cover(&mesh);
+            assert_eq!(mesh.sites.len() as u64, layout.site_count());
+            assert!(mesh.elements.iter().all(|e| e.size <= i32::from(element)));
+        }
+        let uniform = Mesh::new(&plan(layout, 10));
+        assert_eq!(uniform.triangles, 12 * 41);
+    }
+
+    #[test]
+    fn regions_are_at_least_as_fine_as_asked_and_mix_freely() {
+        let layout = Layout { block: 10, rows: 12, triangles: 41 };
+        let band = Region { shape: Shape::Band { half_width: 3.0 }, element: 1 };
+        let disc = Region { shape: Shape::Disc { center: [40.0, 8.0], radius: 4.0 }, element: 4 };
+        let boxed = Region { shape: Shape::Box { from: [5.0, -12.0], to: [9.0, -9.0] }, element: 5 };
+        let mesh = Mesh::new(&Plan { regions: vec![band, disc, boxed], ..plan(layout, 10) });
+        check_cover(&mesh);
+        let left = mesh.sites.left() * mesh.spacing;
+        for element in &mesh.elements {
+            for site in element.sites() {
+                let [x, y] = mesh.reference(site);
+                let place = [x - left, y - mesh.middle_height()];
+                for region in [band, disc, boxed] {
+                    assert!(!region.shape.contains(place) || element.size <= i32::from(region.element));
+                }
+            }
+        }
+        let sizes: std::collections::BTreeSet<i32> = mesh.elements.iter().map(|element| element.size).collect();
+        assert!([1, 4, 5, 10].iter().all(|size| sizes.contains(size)), "{sizes:?}");
+    }
+
+    #[test]
+    fn no_element_crosses_the_crack_plane_or_a_grip() {
+        let layout = Layout { block: 10, rows: 9, triangles: 21 };
+        for element in [7, 10, 20] {
+            let mesh = Mesh::new(&plan(layout, element));
+            for boundary in [10, 40, 80] {
+                let astride = |e: &Element| e.sites().any(|s| s[1] < boundary) && e.sites().any(|s| s[1] >= boundary);
+                assert!(!mesh.elements.iter().any(astride), "element {element}, boundary {boundary}");
+            }
+        }
+    }
+}

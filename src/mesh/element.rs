@@ -1,0 +1,137 @@
+//! Elements: single atoms and triangles of any size, and how their nodes carry their sites.
+
+/// A triangle of lattice sites with its nodes at the three corner sites, or a single atom that is its own node.
+///
+/// Local coordinates (p, q) of a site (i, j) are p = sign (i - column), q = sign (j - row), so that the sites are
+/// p, q >= 0, p + q < size for both orientations. [Deng2011] Fig. 3-6.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub struct Element {
+    /// Sites along an edge; 1 is the atom.
+    pub size: i32,
+    /// 1: upright, anchored at its lower left corner; -1: inverted, anchored at its upper right corner.
+    pub sign: i32,
+    pub column: i32,
+    pub row: i32,
+}
+
+impl Element {
+    pub fn atom([column, row]: [i32; 2]) -> Self {
+        Self { size: 1, sign: 1, column, row }
+    }
+
+    pub fn is_atom(&self) -> bool {
+        self.size == 1
+    }
+
+    /// 1 for the atom, 3 for the triangle.
+    pub fn node_count(&self) -> usize {
+        if self.is_atom() { 1 } else { 3 }
+    }
+
+    pub fn site_count(&self) -> usize {
+        (self.size * (self.size + 1) / 2) as usize
+    }
+
+    /// Local coordinates of a lattice site.
+    #[inline(always)]
+    pub fn local(&self, [i, j]: [i32; 2]) -> [i32; 2] {
+        [self.sign * (i - self.column), self.sign * (j - self.row)]
+    }
+
+    /// The lattice site at local coordinates.
+    #[inline(always)]
+    pub fn site(&self, [p, q]: [i32; 2]) -> [i32; 2] {
+        [self.column + self.sign * p, self.row + self.sign * q]
+    }
+
+    pub fn contains(&self, site: [i32; 2]) -> bool {
+        let [p, q] = self.local(site);
+        p >= 0 && q >= 0 && p + q < self.size
+    }
+
+    /// Local coordinates of all sites, row by row.
+    pub fn locals(&self) -> impl Iterator<Item = [i32; 2]> + use<> {
+        let size = self.size;
+        (0..size).flat_map(move |q| (0..size - q).map(move |p| [p, q]))
+    }
+
+    /// All sites, in the order of [`Self::locals`].
+    pub fn sites(&self) -> impl Iterator<Item = [i32; 2]> + use<> {
+        let element = *self;
+        element.locals().map(move |local| element.site(local))
+    }
+
+    /// The sites that are nodes, in node order.
+    pub fn corners(&self) -> Vec<[i32; 2]> {
+        let last = self.size - 1;
+        if self.is_atom() {
+            vec![self.site([0, 0])]
+        } else {
+            [[0, 0], [last, 0], [0, last]].into_iter().map(|local| self.site(local)).collect()
+        }
+    }
+
+    /// Shape functions N_i at local coordinates: area coordinates, [Deng2011] Eq. (3-27) on Fig. 3-6.
+    #[inline(always)]
+    pub fn shape_functions(&self, [p, q]: [i32; 2]) -> [f64; 3] {
+        if self.is_atom() {
+            return [1.0, 0.0, 0.0];
+        }
+        let edge = f64::from(self.size - 1);
+        let [second, third] = [f64::from(p) / edge, f64::from(q) / edge];
+        [1.0 - second - third, second, third]
+    }
+
+    /// Lumped mass of each node in site masses, M_i = m sum_a N_i(a): [Deng2011] Eq. (3-29).
+    pub fn lumped_mass(&self) -> f64 {
+        self.site_count() as f64 / self.node_count() as f64
+    }
+
+    /// Lowest row of the element.
+    pub fn lowest_row(&self) -> i32 {
+        if self.sign > 0 { self.row } else { self.row - self.size + 1 }
+    }
+
+    /// Leftmost column of the lowest row.
+    pub fn lowest_column(&self) -> i32 {
+        self.column
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_55_site_triangle_has_mass_55_thirds_a_node_in_either_orientation() {
+        // [Deng2011] Eq. (3-29): the lumped mass is the sum of the shape functions over the sites.
+        for sign in [1, -1] {
+            let element = Element { size: 10, sign, column: 3, row: -2 };
+            let mut mass = [0.0; 3];
+            for local in element.locals() {
+                let shape = element.shape_functions(local);
+                assert!((shape.iter().sum::<f64>() - 1.0).abs() < 1e-15);
+                (0..3).for_each(|k| mass[k] += shape[k]);
+            }
+            assert_eq!(element.sites().count(), 55);
+            mass.iter().for_each(|m| assert!((m - 55.0 / 3.0).abs() < 1e-12));
+            assert_eq!(element.lumped_mass(), 55.0 / 3.0);
+        }
+    }
+
+    #[test]
+    fn shape_functions_interpolate_lattice_positions() {
+        // [Deng2011] Eq. (3-27): x_a = sum_i N_i(a) X_i reproduces any affine field.
+        let element = Element { size: 7, sign: -1, column: 5, row: 9 };
+        let corners = element.corners();
+        for local in element.locals() {
+            let shape = element.shape_functions(local);
+            let site = element.site(local);
+            for axis in 0..2 {
+                let found: f64 = (0..3).map(|k| shape[k] * f64::from(corners[k][axis])).sum();
+                assert!((found - f64::from(site[axis])).abs() < 1e-12);
+            }
+            assert!(element.contains(site));
+        }
+    }
+}

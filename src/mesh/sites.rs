@@ -1,0 +1,150 @@
+//! The set of lattice sites of a specimen, the same whatever the resolution.
+
+use crate::lattice::triangular;
+
+/// How many blocks a specimen has: element rows of `block` lattice rows, an odd number of triangles in each.
+///
+/// Even rows start with an upright triangle, odd rows with an inverted one; row r starts at lattice column
+/// -block floor(r/2), so that the specimen has straight sides and no drift.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Layout {
+    /// Sites along an edge of the triangles that lay out the set.
+    pub block: i32,
+    /// Element rows R.
+    pub rows: i32,
+    /// Triangles a row C, odd.
+    pub triangles: i32,
+}
+
+impl Layout {
+    /// The layout nearest to a wanted size, lengths in units of the lattice spacing: R is the integer nearest to
+    /// height / (block sqrt(3)/2), C the odd integer for which (C + 1)(block + 1)/2 is nearest to the length.
+    pub fn nearest(length: f64, height: f64, block: i32) -> Self {
+        let rows = (height / (f64::from(block) * triangular::ROW_HEIGHT)).round() as i32;
+        let cells = (length / f64::from(block + 1)).round() as i32;
+        Self { block, rows, triangles: 2 * cells - 1 }
+    }
+
+    pub fn lattice_rows(&self) -> i32 {
+        self.rows * self.block
+    }
+
+    /// Number of sites: that of R x C triangles.
+    pub fn site_count(&self) -> u64 {
+        let triangle = self.block as u64 * (self.block as u64 + 1) / 2;
+        self.rows as u64 * self.triangles as u64 * triangle
+    }
+
+    /// Length along x in lattice spacings, (C + 1)(block + 1)/2.
+    pub fn length(&self) -> f64 {
+        f64::from((self.triangles + 1) / 2 * (self.block + 1))
+    }
+
+    /// Column at which the upright triangles of element row `row` are anchored.
+    pub fn anchor(&self, row: i32) -> i32 {
+        -self.block * row.div_euclid(2)
+    }
+
+    /// First column and number of sites of a lattice row.
+    fn extent(&self, lattice_row: i32) -> (i32, i32) {
+        let [row, q] = [lattice_row.div_euclid(self.block), lattice_row.rem_euclid(self.block)];
+        let cells = (self.triangles - 1) / 2;
+        let full = cells * (self.block + 1);
+        if row % 2 == 0 {
+            (self.anchor(row), full + self.block - q)
+        } else {
+            (self.anchor(row) - (q + 1), full + q + 1)
+        }
+    }
+}
+
+/// Sites numbered row by row from the lower left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SiteSet {
+    pub layout: Layout,
+    /// First column of every lattice row.
+    first: Vec<i32>,
+    /// Number of the first site of every lattice row, and the total at the end.
+    start: Vec<usize>,
+}
+
+impl SiteSet {
+    pub fn new(layout: Layout) -> Self {
+        let mut first = Vec::with_capacity(layout.lattice_rows() as usize);
+        let mut start = vec![0];
+        for row in 0..layout.lattice_rows() {
+            let (column, count) = layout.extent(row);
+            first.push(column);
+            start.push(start[row as usize] + count as usize);
+        }
+        Self { layout, first, start }
+    }
+
+    pub fn len(&self) -> usize {
+        *self.start.last().expect("the total stands at the end")
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    pub fn rows(&self) -> i32 {
+        self.first.len() as i32
+    }
+
+    /// Columns of a lattice row.
+    pub fn columns(&self, row: i32) -> std::ops::Range<i32> {
+        let k = row as usize;
+        self.first[k]..self.first[k] + (self.start[k + 1] - self.start[k]) as i32
+    }
+
+    /// Number of a site; `None` if the specimen does not hold it.
+    #[inline(always)]
+    pub fn index(&self, [column, row]: [i32; 2]) -> Option<usize> {
+        if row < 0 || row >= self.rows() {
+            return None;
+        }
+        let k = row as usize;
+        let offset = column - self.first[k];
+        (offset >= 0 && (offset as usize) < self.start[k + 1] - self.start[k]).then(|| self.start[k] + offset as usize)
+    }
+
+    /// All sites in the order of their numbers.
+    pub fn iter(&self) -> impl Iterator<Item = [i32; 2]> + '_ {
+        (0..self.rows()).flat_map(|row| self.columns(row).map(move |column| [column, row]))
+    }
+
+    /// Lattice x of the specimen's left edge in spacings: the leftmost site.
+    pub fn left(&self) -> f64 {
+        let starts = (0..self.rows()).map(|row| triangular::position([self.columns(row).start, row])[0]);
+        starts.fold(f64::INFINITY, f64::min)
+    }
+
+    /// The boundary between lattice rows at which a crack through the middle is cut: a boundary of element rows,
+    /// and where their number is odd the one just below the middle.
+    pub fn middle_row(&self) -> i32 {
+        self.layout.rows / 2 * self.layout.block
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_specimen_has_as_many_sites_as_its_triangles_and_straight_sides() {
+        let layout = Layout { block: 10, rows: 6, triangles: 9 };
+        let sites = SiteSet::new(layout);
+        assert_eq!(sites.len() as u64, layout.site_count());
+        assert_eq!(sites.iter().count(), sites.len());
+        for (number, site) in sites.iter().enumerate() {
+            assert_eq!(sites.index(site), Some(number));
+        }
+        for row in 0..2 {
+            let [x_low, x_high] = [row, row + 20].map(|r| triangular::position([sites.columns(r).start, r])[0]);
+            assert_eq!(x_low, x_high, "two element rows further the sides stand where they stood");
+        }
+        assert_eq!(sites.index([sites.columns(5).end, 5]), None);
+        assert_eq!(sites.index([0, 60]), None);
+    }
+}

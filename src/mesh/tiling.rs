@@ -1,0 +1,131 @@
+//! Covers every site of a specimen with exactly one element.
+
+use super::element::Element;
+use super::sites::SiteSet;
+
+/// Chooses the elements: rows of triangles as the source lays them, finer ones where they are wanted, and in what
+/// is left over the largest triangles that fit, down to atoms.
+///
+/// `target[site]` is the largest element size allowed at a site. An element that holds a site of a finer target gives
+/// all its sites to the finer one, so that the border of a region runs along elements. No element crosses a row
+/// boundary in `breaks` (ascending, from 0 to the number of rows).
+pub fn tile(sites: &SiteSet, target: Vec<u16>, breaks: &[i32]) -> Vec<Element> {
+    let mut tiling = Tiling { sites, target, covered: vec![false; sites.len()], breaks, elements: Vec::new() };
+    let mut sizes: Vec<i32> = tiling.target.iter().map(|&size| i32::from(size)).collect();
+    sizes.dedup();
+    sizes.sort_unstable_by(|a, b| b.cmp(a));
+    sizes.dedup();
+    for &size in sizes.iter().filter(|&&size| size >= SMALLEST_TRIANGLE) {
+        tiling.lay_rows(size);
+    }
+    for size in (SMALLEST_TRIANGLE..sizes[0].max(SMALLEST_TRIANGLE)).rev() {
+        tiling.fill(size);
+    }
+    tiling.fill_with_atoms();
+    let mut elements = tiling.elements;
+    elements.sort_by_key(|e| (-e.size, e.lowest_row(), e.lowest_column(), e.sign));
+    elements
+}
+
+/// Two sites an edge would be three atoms with the mass and the freedom of three atoms: they are atoms.
+const SMALLEST_TRIANGLE: i32 = 3;
+
+struct Tiling<'a> {
+    sites: &'a SiteSet,
+    target: Vec<u16>,
+    covered: Vec<bool>,
+    breaks: &'a [i32],
+    elements: Vec<Element>,
+}
+
+impl Tiling<'_> {
+    /// The regular pattern of one size in every band of rows between two breaks.
+    fn lay_rows(&mut self, size: i32) {
+        let layout = self.sites.layout;
+        for band in self.breaks.windows(2) {
+            let block_row = band[0].div_euclid(layout.block);
+            let origin = layout.anchor(block_row);
+            for k in 0..(band[1] - band[0]) / size {
+                let row = band[0] + k * size;
+                let steps = (block_row + k).div_euclid(2) - block_row.div_euclid(2);
+                self.lay_row(size, row, origin - size * steps);
+            }
+        }
+    }
+
+    /// Upright triangles anchored every size + 1 columns from `anchor` on either side, inverted ones between them.
+    fn lay_row(&mut self, size: i32, row: i32, anchor: i32) {
+        let top = row + size - 1;
+        let [low, high] = [row, top].map(|r| self.sites.columns(r));
+        let first = (low.start.min(high.start) - anchor).div_euclid(size + 1) - 1;
+        let last = (low.end.max(high.end) - anchor).div_euclid(size + 1) + 1;
+        for cell in first..=last {
+            let column = anchor + cell * (size + 1);
+            self.place(Element { size, sign: 1, column, row });
+            self.place(Element { size, sign: -1, column: column + size, row: top });
+        }
+    }
+
+    /// Places a triangle if all its sites are free and none wants a finer element; in the latter case all do then.
+    fn place(&mut self, element: Element) -> bool {
+        let Some(numbers) = self.free_sites(&element) else { return false };
+        let finest = numbers.iter().map(|&site| self.target[site]).min().expect("an element has sites");
+        if i32::from(finest) < element.size {
+            for &site in &numbers {
+                if i32::from(self.target[site]) >= element.size {
+                    self.target[site] = finest;
+                }
+            }
+            return false;
+        }
+        self.cover(element, &numbers);
+        true
+    }
+
+    /// Puts triangles of one size wherever free sites allow, scanning site by site.
+    fn fill(&mut self, size: i32) {
+        let free: Vec<[i32; 2]> = self.wanting(size).collect();
+        for [column, row] in free {
+            for sign in [1, -1] {
+                let element = Element { size, sign, column, row };
+                if self.crosses_a_break(&element) {
+                    continue;
+                }
+                let Some(numbers) = self.free_sites(&element) else { continue };
+                if numbers.iter().all(|&site| i32::from(self.target[site]) >= size) {
+                    self.cover(element, &numbers);
+                }
+            }
+        }
+    }
+
+    fn fill_with_atoms(&mut self) {
+        let free: Vec<[i32; 2]> = self.wanting(1).collect();
+        self.elements.extend(free.into_iter().map(Element::atom));
+    }
+
+    /// Free sites that allow elements of this size.
+    fn wanting(&self, size: i32) -> impl Iterator<Item = [i32; 2]> + '_ {
+        let numbered = self.sites.iter().enumerate();
+        numbered.filter(move |&(n, _)| !self.covered[n] && i32::from(self.target[n]) >= size).map(|(_, site)| site)
+    }
+
+    fn free_sites(&self, element: &Element) -> Option<Vec<usize>> {
+        let corners_inside = element.corners().into_iter().all(|corner| self.sites.index(corner).is_some());
+        if !corners_inside {
+            return None;
+        }
+        let number = |site| self.sites.index(site).filter(|&n| !self.covered[n]);
+        element.sites().map(number).collect()
+    }
+
+    fn cover(&mut self, element: Element, numbers: &[usize]) {
+        numbers.iter().for_each(|&site| self.covered[site] = true);
+        self.elements.push(element);
+    }
+
+    fn crosses_a_break(&self, element: &Element) -> bool {
+        let [low, high] = [element.lowest_row(), element.lowest_row() + element.size - 1];
+        self.breaks.iter().any(|&row| low < row && row <= high)
+    }
+}

@@ -1,0 +1,71 @@
+//! Pair potentials: the shape of the interaction, and apart from it what happens at the cutoff.
+//!
+//! A potential knows no particles. Distances in nm, energies in eV; every quantity only has to be consistent.
+
+mod cutoff;
+mod harmonic_bond;
+mod lennard_jones;
+mod morse;
+
+pub use cutoff::{AtCutoff, CutPotential, PairValue};
+pub use harmonic_bond::HarmonicBond;
+pub use lennard_jones::LennardJones;
+pub use morse::Morse;
+
+/// The uncut interaction of one pair as a function of its squared distance.
+pub trait PairShape: Copy + Send + Sync + std::fmt::Debug {
+    /// Energy phi and phi'(r)/r.
+    fn energy_and_slope(&self, squared_distance: f64) -> (f64, f64);
+    /// Second derivative phi''.
+    fn curvature(&self, distance: f64) -> f64;
+    /// Distance at which the energy is lowest.
+    fn minimum(&self) -> f64;
+}
+
+/// Any of the potentials, cut. Inner loops take it apart once by [`with_law!`](crate::with_law), so that each
+/// potential has its own compiled loop.
+#[derive(Clone, Copy, Debug)]
+pub enum Interaction {
+    LennardJones(CutPotential<LennardJones>),
+    Morse(CutPotential<Morse>),
+    HarmonicBond(CutPotential<HarmonicBond>),
+}
+
+/// Runs an expression with the concrete potential inside an [`Interaction`].
+#[macro_export]
+macro_rules! with_law {
+    ($interaction:expr, $law:ident => $body:expr) => {
+        match $interaction {
+            $crate::potential::Interaction::LennardJones($law) => $body,
+            $crate::potential::Interaction::Morse($law) => $body,
+            $crate::potential::Interaction::HarmonicBond($law) => $body,
+        }
+    };
+}
+
+impl Interaction {
+    /// Distance beyond which a pair does not interact.
+    pub fn cutoff(&self) -> f64 {
+        with_law!(self, law => law.cutoff())
+    }
+
+    /// Energy and phi'/r of a pair at this squared distance; zero beyond the cutoff.
+    pub fn evaluate(&self, squared_distance: f64) -> PairValue {
+        with_law!(self, law => law.evaluate(squared_distance))
+    }
+
+    /// Second derivative of the energy at this distance; zero beyond the cutoff.
+    pub fn curvature(&self, distance: f64) -> f64 {
+        with_law!(self, law => law.curvature(distance))
+    }
+
+    /// What one pair's energy jumps by when it comes within the cutoff (zero unless truncated).
+    pub fn jump_at_cutoff(&self) -> f64 {
+        with_law!(self, law => law.jump_at_cutoff())
+    }
+
+    /// Distance at which the energy of a pair is lowest.
+    pub fn minimum(&self) -> f64 {
+        with_law!(self, law => law.minimum())
+    }
+}

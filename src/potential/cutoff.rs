@@ -1,0 +1,209 @@
+//! What becomes of a pair potential at its cutoff, and of the faces of a crack that was cut on purpose.
+
+use super::PairShape;
+
+/// The treatment of the cutoff.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum AtCutoff {
+    /// Cut where it stands: energy and force jump. The source and its MD reference do this.
+    Truncated,
+    /// The energy is shifted to zero at the cutoff; the force jumps, the energy of the system does not.
+    Shifted,
+    /// Taken to zero between `from` and the cutoff, with two continuous derivatives, by the factor
+    /// (1 - s)^3 (1 + 3 s + 6 s^2), s = (r - from)/(cutoff - from); untouched below `from`.
+    Smooth { from: f64 },
+}
+
+/// Energy of a pair and phi'(r)/r.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct PairValue {
+    pub energy: f64,
+    /// phi'(r)/r: the force on the first of two sites is this times the vector from the first to the second.
+    pub slope: f64,
+}
+
+/// A pair potential with its cutoff.
+#[derive(Clone, Copy, Debug)]
+pub struct CutPotential<S> {
+    shape: S,
+    at_cutoff: AtCutoff,
+    cutoff: f64,
+    squared_cutoff: f64,
+    /// Beyond this squared distance the switch acts; infinite without one.
+    squared_switch: f64,
+    shift: f64,
+}
+
+impl<S: PairShape> CutPotential<S> {
+    pub fn new(shape: S, cutoff: f64, at_cutoff: AtCutoff) -> Self {
+        let (energy_at_cutoff, _) = shape.energy_and_slope(cutoff * cutoff);
+        let (squared_switch, shift) = match at_cutoff {
+            AtCutoff::Truncated => (f64::INFINITY, 0.0),
+            AtCutoff::Shifted => (f64::INFINITY, energy_at_cutoff),
+            AtCutoff::Smooth { from } => (from * from, 0.0),
+        };
+        Self { shape, at_cutoff, cutoff, squared_cutoff: cutoff * cutoff, squared_switch, shift }
+    }
+
+    pub fn cutoff(&self) -> f64 {
+        self.cutoff
+    }
+
+    #[inline(always)]
+    pub fn squared_cutoff(&self) -> f64 {
+        self.squared_cutoff
+    }
+
+    /// Energy and phi'/r; zero from the cutoff on.
+    #[inline(always)]
+    pub fn evaluate(&self, squared_distance: f64) -> PairValue {
+        if squared_distance >= self.squared_cutoff {
+            return PairValue::default();
+        }
+        let (energy, slope) = self.shape.energy_and_slope(squared_distance);
+        if squared_distance > self.squared_switch {
+            return self.switched(squared_distance, energy, slope);
+        }
+        PairValue { energy: energy - self.shift, slope }
+    }
+
+    /// phi'/r alone; zero from the cutoff on.
+    #[inline(always)]
+    pub fn slope(&self, squared_distance: f64) -> f64 {
+        self.evaluate(squared_distance).slope
+    }
+
+    #[cold]
+    fn switched(&self, squared_distance: f64, energy: f64, slope: f64) -> PairValue {
+        let distance = squared_distance.sqrt();
+        let [factor, derivative, _] = self.switch(distance);
+        PairValue { energy: energy * factor, slope: slope * factor + energy * derivative / distance }
+    }
+
+    /// The switching factor and its first two derivatives.
+    fn switch(&self, distance: f64) -> [f64; 3] {
+        let AtCutoff::Smooth { from } = self.at_cutoff else { return [1.0, 0.0, 0.0] };
+        if distance <= from {
+            return [1.0, 0.0, 0.0];
+        }
+        let width = self.cutoff - from;
+        let s = (distance - from) / width;
+        let rest = 1.0 - s;
+        let factor = rest * rest * rest * (1.0 + 3.0 * s + 6.0 * s * s);
+        let first = -30.0 * s * s * rest * rest / width;
+        let second = -60.0 * s * rest * (1.0 - 2.0 * s) / (width * width);
+        [factor, first, second]
+    }
+
+    /// phi'' of the cut potential; zero from the cutoff on.
+    pub fn curvature(&self, distance: f64) -> f64 {
+        if distance >= self.cutoff {
+            return 0.0;
+        }
+        let [factor, first, second] = self.switch(distance);
+        let (energy, slope) = self.shape.energy_and_slope(distance * distance);
+        self.shape.curvature(distance) * factor + 2.0 * slope * distance * first + energy * second
+    }
+
+    /// Repulsion between the faces of a cut: the potential up to its minimum, zero beyond, stretched so that the
+    /// minimum falls on `spacing` and nothing is pushed at the start.
+    #[inline(always)]
+    pub fn repulsion(&self, squared_distance: f64, spacing: f64) -> PairValue {
+        if squared_distance >= spacing * spacing {
+            return PairValue::default();
+        }
+        let minimum = self.shape.minimum();
+        let scale = (minimum / spacing) * (minimum / spacing);
+        let (energy, slope) = self.shape.energy_and_slope(squared_distance * scale);
+        let (well, _) = self.shape.energy_and_slope(minimum * minimum);
+        PairValue { energy: energy - well, slope: slope * scale }
+    }
+
+    /// Second derivative of the repulsion.
+    pub fn repulsion_curvature(&self, distance: f64, spacing: f64) -> f64 {
+        let scale = self.shape.minimum() / spacing;
+        if distance < spacing { scale * scale * self.shape.curvature(distance * scale) } else { 0.0 }
+    }
+
+    /// What one pair's energy jumps by when it comes within the cutoff.
+    pub fn jump_at_cutoff(&self) -> f64 {
+        match self.at_cutoff {
+            AtCutoff::Truncated => self.shape.energy_and_slope(self.squared_cutoff).0,
+            AtCutoff::Shifted | AtCutoff::Smooth { .. } => 0.0,
+        }
+    }
+
+    pub fn minimum(&self) -> f64 {
+        self.shape.minimum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{HarmonicBond, LennardJones, Morse};
+    use super::*;
+
+    /// Central differences with a step of 1e-5 leave step^2/6 of the third derivative, which reaches 1e4 in the switch.
+    const DIFFERENCE_ERROR: f64 = 1e-6;
+    const LJ: LennardJones = LennardJones { epsilon: 1.0, sigma: 1.0 };
+
+    fn check_derivatives<S: PairShape>(shape: S, cutoff: f64, from: f64) {
+        for at_cutoff in [AtCutoff::Truncated, AtCutoff::Shifted, AtCutoff::Smooth { from }] {
+            let law = CutPotential::new(shape, cutoff, at_cutoff);
+            let energy = |r: f64| law.evaluate(r * r).energy;
+            let force = |r: f64| law.evaluate(r * r).slope * r;
+            for k in 0..50 {
+                let r = 0.95 + (cutoff - 0.96) * f64::from(k) / 50.0 + 1e-3;
+                let step = 1e-5;
+                let first = (energy(r + step) - energy(r - step)) / (2.0 * step);
+                let second = (force(r + step) - force(r - step)) / (2.0 * step);
+                assert!((first - force(r)).abs() < DIFFERENCE_ERROR * (1.0 + first.abs()), "{shape:?} {at_cutoff:?} {r}");
+                assert!((second - law.curvature(r)).abs() < DIFFERENCE_ERROR * (1.0 + second.abs()), "{at_cutoff:?} {r}");
+            }
+            assert_eq!(law.evaluate(cutoff * cutoff), PairValue::default());
+        }
+    }
+
+    #[test]
+    fn slopes_and_curvatures_are_the_derivatives_of_the_energy_for_every_cutoff() {
+        check_derivatives(LJ, 1.9, 1.5);
+        check_derivatives(Morse { depth: 1.0, decay: 5.0, distance: 1.1 }, 1.8, 1.5);
+        check_derivatives(HarmonicBond { stiffness: 60.0, distance: 1.1 }, 1.4, 1.25);
+    }
+
+    #[test]
+    fn the_nearest_neighbour_stiffness_is_72_over_the_squared_spacing() {
+        let r0 = LJ.minimum();
+        let law = CutPotential::new(LJ, 1.5, AtCutoff::Truncated);
+        assert!((law.curvature(r0) - 72.0 / (r0 * r0)).abs() < 1e-12);
+        assert!((law.evaluate(r0 * r0).energy + 1.0).abs() < 1e-15);
+    }
+
+    #[test]
+    fn truncation_at_0_34_nm_jumps_by_a_third_of_the_well() {
+        let law = CutPotential::new(LJ, 0.34 / 0.2277, AtCutoff::Truncated);
+        assert!((law.jump_at_cutoff() + 0.328).abs() < 5e-4);
+        assert!((law.evaluate((0.34f64 / 0.2277).powi(2) - 1e-12).slope * 0.34 / 0.2277 - 1.19).abs() < 5e-3);
+    }
+
+    #[test]
+    fn the_smooth_cutoff_ends_without_energy_force_or_curvature_and_leaves_the_well_alone() {
+        let law = CutPotential::new(LJ, 1.9, AtCutoff::Smooth { from: 1.5 });
+        let end = law.evaluate((1.9f64 - 1e-6).powi(2));
+        assert!(end.energy.abs() < 1e-14 && end.slope.abs() < 1e-9 && law.curvature(1.9 - 1e-6).abs() < 1e-3);
+        let uncut = CutPotential::new(LJ, 9.0, AtCutoff::Truncated);
+        assert_eq!(law.evaluate(2.1), uncut.evaluate(2.1));
+        assert_eq!(law.jump_at_cutoff(), 0.0);
+    }
+
+    #[test]
+    fn faces_of_a_cut_push_but_never_pull() {
+        let law = CutPotential::new(LJ, 2.5, AtCutoff::Truncated);
+        let spacing = 1.1132;
+        assert_eq!(law.repulsion(spacing * spacing, spacing), PairValue::default());
+        let pressed = law.repulsion(1.0, spacing);
+        assert!(pressed.energy > 0.0 && pressed.slope < 0.0);
+        let near = law.repulsion((spacing - 1e-7).powi(2), spacing);
+        assert!(near.energy.abs() < 1e-12 && near.slope.abs() < 1e-4);
+    }
+}

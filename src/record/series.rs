@@ -1,0 +1,152 @@
+//! The layout of a time series in HDF5, and the published file that holds it.
+//!
+//! One dataset a column, in the internal units that its attribute `units` names, so that reading gives the same
+//! bits: `probes/time`, `profiles/x`, `profiles/stress` (probe, bin, component), `bonds/column`, ...
+
+use std::path::Path;
+
+use hdf5::Group;
+
+use super::RecordError;
+use super::arrays::{Packing, get, get_column, get_rows, new_group, put};
+use super::sealed::{self, Seal};
+use super::setting::{get_setting, put_setting};
+use crate::analysis::series::{BondEvent, Probe, Series, Setting};
+
+/// The series of a finished run and what is needed to understand it.
+pub fn read_series(path: &Path) -> Result<(Setting, Series), RecordError> {
+    let file = sealed::open(path, SEAL)?;
+    let damaged = |cause| RecordError::damaged(path, cause);
+    Ok((
+        get_setting(&file).map_err(damaged)?,
+        get_series(&file).map_err(damaged)?,
+    ))
+}
+
+/// Counterpart of [`read_series`].
+pub(super) fn write_series(path: &Path, setting: &Setting, series: &Series) -> Result<(), RecordError> {
+    sealed::write(path, SEAL, |file| {
+        put_setting(file, setting)?;
+        put_series(file, series)
+    })
+}
+
+const SEAL: Seal = Seal {
+    kind: "series",
+    format: 1,
+    case_id: "",
+};
+
+/// Name, unit and place of a column.
+type Column = (&'static str, &'static str, fn(&mut Probe) -> &mut f64);
+
+const COLUMNS: [Column; 11] = [
+    ("time", "ps", |probe| &mut probe.time),
+    ("strain", "1", |probe| &mut probe.strain),
+    ("sigma_xx", "eV/nm^3", |probe| &mut probe.sigma_xx),
+    ("sigma_yy", "eV/nm^3", |probe| &mut probe.sigma_yy),
+    ("sigma_xy", "eV/nm^3", |probe| &mut probe.sigma_xy),
+    ("grip_stress", "eV/nm^3", |probe| &mut probe.grip_stress),
+    ("kinetic", "eV", |probe| &mut probe.kinetic),
+    ("potential", "eV", |probe| &mut probe.potential),
+    ("work", "eV", |probe| &mut probe.work),
+    ("cutoff_release", "eV", |probe| &mut probe.cutoff_release),
+    ("temperature", "K", |probe| &mut probe.temperature),
+];
+
+pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
+    let Series {
+        probes,
+        profile_x,
+        profiles,
+        bonds,
+    } = series;
+    put_probes(&new_group(parent, "probes")?, probes)?;
+
+    let group = new_group(parent, "profiles")?;
+    let shape = [probes.len(), profile_x.len(), 3];
+    put(&group, "x", "nm", &[profile_x.len()], profile_x, Packing::Deflated)?;
+    put(
+        &group,
+        "stress",
+        "eV/nm^3",
+        &shape,
+        profiles.as_flattened(),
+        Packing::Deflated,
+    )?;
+
+    put_bonds(&new_group(parent, "bonds")?, bonds)
+}
+
+pub(super) fn get_series(parent: &Group) -> hdf5::Result<Series> {
+    let profiles = parent.group("profiles")?;
+    Ok(Series {
+        probes: get_probes(&parent.group("probes")?)?,
+        profile_x: get(&profiles, "x")?,
+        profiles: get_rows(&profiles, "stress")?,
+        bonds: get_bonds(&parent.group("bonds")?)?,
+    })
+}
+
+fn put_probes(group: &Group, probes: &[Probe]) -> hdf5::Result<()> {
+    let shape = [probes.len()];
+    let step: Vec<u64> = probes.iter().map(|probe| probe.step).collect();
+    put(group, "step", "1", &shape, &step, Packing::Deflated)?;
+    for (name, unit, place) in COLUMNS {
+        let column: Vec<f64> = probes.iter().map(|probe| *place(&mut probe.clone())).collect();
+        put(group, name, unit, &shape, &column, Packing::Deflated)?;
+    }
+    Ok(())
+}
+
+fn get_probes(group: &Group) -> hdf5::Result<Vec<Probe>> {
+    let step: Vec<u64> = get(group, "step")?;
+    let length = step.len();
+    let mut probes: Vec<Probe> = step
+        .into_iter()
+        .map(|step| Probe {
+            step,
+            ..Probe::default()
+        })
+        .collect();
+    for (name, _, place) in COLUMNS {
+        for (probe, number) in probes.iter_mut().zip(get_column::<f64>(group, name, length)?) {
+            *place(probe) = number;
+        }
+    }
+    Ok(probes)
+}
+
+fn put_bonds(group: &Group, bonds: &[BondEvent]) -> hdf5::Result<()> {
+    fn column<T: hdf5::H5Type>(
+        group: &Group,
+        name: &str,
+        bonds: &[BondEvent],
+        of: fn(&BondEvent) -> T,
+    ) -> hdf5::Result<()> {
+        let column: Vec<T> = bonds.iter().map(of).collect();
+        put(group, name, "1", &[bonds.len()], &column, Packing::Deflated)
+    }
+    column(group, "probe", bonds, |bond| bond.probe)?;
+    column(group, "column", bonds, |bond| bond.column)?;
+    column(group, "row", bonds, |bond| bond.row)?;
+    column(group, "direction", bonds, |bond| bond.direction)?;
+    column(group, "broken", bonds, |bond| bond.broken)
+}
+
+fn get_bonds(group: &Group) -> hdf5::Result<Vec<BondEvent>> {
+    let probe: Vec<u32> = get(group, "probe")?;
+    let column: Vec<i32> = get_column(group, "column", probe.len())?;
+    let row: Vec<i32> = get_column(group, "row", probe.len())?;
+    let direction: Vec<u8> = get_column(group, "direction", probe.len())?;
+    let broken: Vec<bool> = get_column(group, "broken", probe.len())?;
+    Ok((0..probe.len())
+        .map(|bond| BondEvent {
+            probe: probe[bond],
+            column: column[bond],
+            row: row[bond],
+            direction: direction[bond],
+            broken: broken[bond],
+        })
+        .collect())
+}

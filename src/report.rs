@@ -1,0 +1,152 @@
+//! A study's results as tables, figures and one page that says what came out and what it cost.
+
+mod chart;
+mod figures;
+mod method;
+mod numbers;
+mod page;
+mod palette;
+mod picture;
+mod slab;
+mod study;
+mod summary;
+mod tables;
+mod units;
+
+pub use study::{CaseResult, Failure, Manifest, Phase, Study};
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use crate::analysis::comparison::{self, Candidate, Difference};
+use crate::analysis::{self, Findings};
+
+/// What went wrong while a report was made.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    #[error("cannot write {}: {source}; check that the folder is writable and the disk is not full", path.display())]
+    Write { path: PathBuf, source: std::io::Error },
+    #[error("cannot make table `{table}`: {reason}; this is a defect of the program, please report it")]
+    Table { table: &'static str, reason: String },
+    #[error("cannot draw figure `{figure}`: {reason}; this is a defect of the program, please report it")]
+    Figure { figure: String, reason: String },
+    #[error("cannot fill in the page: {0}; this is a defect of the program, please report it")]
+    Page(#[from] minijinja::Error),
+}
+
+/// A case with everything extracted from it.
+struct Analysed<'a> {
+    result: &'a CaseResult,
+    findings: Findings,
+    /// Index of the case it is measured against, and how far it is from it.
+    reference: Option<usize>,
+    difference: Difference,
+}
+
+impl Analysed<'_> {
+    fn name(&self) -> &str {
+        &self.result.name
+    }
+
+    /// nm/ps
+    fn rayleigh_speed(&self) -> Option<f64> {
+        self.result.setting.as_ref().map(|setting| setting.rayleigh_speed)
+    }
+
+    fn peak_speed_over_rayleigh(&self) -> Option<f64> {
+        Some(self.findings.peak_speed()? / self.rayleigh_speed()?)
+    }
+
+    fn atom_steps_a_second(&self) -> Option<f64> {
+        let atoms = self.result.setting.as_ref()?.represented_atoms;
+        let wall = self.result.manifest.wall_seconds.filter(|&wall| wall > 0.0)?;
+        Some(atoms as f64 * self.result.manifest.steps? as f64 / wall)
+    }
+}
+
+/// Writes `report.html`, `report.md`, `tables/` and `figures/` into a folder. Equal inputs give equal bytes.
+pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
+    let cases = analysed(study);
+    for part in ["tables", "figures"] {
+        let path = folder.join(part);
+        fs::create_dir_all(&path).map_err(|source| ReportError::Write { path, source })?;
+    }
+    let mut tables = tables::all(&cases)?;
+    for table in &mut tables {
+        table.write(&folder.join("tables"))?;
+    }
+    let charts = figures::charts(&cases);
+    let mut drawn = Vec::new();
+    for chart in &charts {
+        let svg = chart.draw()?;
+        save(
+            &folder.join("figures").join(format!("{}.svg", chart.id)),
+            svg.standalone.as_bytes(),
+        )?;
+        drawn.push(svg);
+    }
+    let gallery = picture::draw_all(&cases, &folder.join("figures"))?;
+    let page = page::Page {
+        study,
+        cases: &cases,
+        tables: &tables,
+        charts: &charts,
+        drawn: &drawn,
+        gallery: &gallery,
+    };
+    save(&folder.join("report.html"), page.html()?.as_bytes())?;
+    save(&folder.join("report.md"), page.markdown()?.as_bytes())
+}
+
+fn analysed(study: &Study) -> Vec<Analysed<'_>> {
+    let findings: Vec<Findings> = study
+        .cases
+        .iter()
+        .map(|case| {
+            case.setting
+                .as_ref()
+                .map(|setting| analysis::analyse(&case.series, setting))
+                .unwrap_or_default()
+        })
+        .collect();
+    let pairs = study.cases.iter().zip(&findings);
+    let candidates: Vec<Option<Candidate>> = pairs.map(|(case, findings)| candidate(case, findings)).collect();
+    let references = comparison::references(&candidates);
+    let differences: Vec<Difference> = (0..candidates.len())
+        .map(|index| {
+            let group = references[index]?;
+            let earliest = comparison::earliest_initiation(&candidates, &references, group);
+            (group != index).then_some(())?;
+            Some(comparison::difference(candidates[index]?, candidates[group]?, earliest))
+        })
+        .map(Option::unwrap_or_default)
+        .collect();
+    drop(candidates);
+    let parts = study.cases.iter().zip(findings).zip(references).zip(differences);
+    parts
+        .map(|(((result, findings), reference), difference)| Analysed {
+            result,
+            findings,
+            reference,
+            difference,
+        })
+        .collect()
+}
+
+/// A case takes part in the comparison when it ran to its end.
+fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings) -> Option<Candidate<'a>> {
+    let usable = case.failure.is_none() && !case.series.probes.is_empty();
+    let setting = case.setting.as_ref().filter(|_| usable)?;
+    Some(Candidate {
+        series: &case.series,
+        setting,
+        findings,
+    })
+}
+
+fn save(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+    fs::write(path, bytes).map_err(|source| ReportError::Write {
+        path: path.to_owned(),
+        source,
+    })
+}

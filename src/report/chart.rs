@@ -1,0 +1,315 @@
+//! Line charts: what they show, apart from how they are drawn.
+
+use std::fmt::Display;
+use std::sync::Once;
+
+use plotters::coord::types::RangedCoordf64;
+use plotters::element::DashedPathElement;
+use plotters::prelude::*;
+use plotters::style::{FontStyle, register_font};
+
+use super::{ReportError, numbers, palette};
+
+/// Size of a chart, and units of the drawing a unit of that: coordinates in the file are whole numbers.
+const WIDTH: u32 = 600;
+const HEIGHT: u32 = 400;
+const FINE: i32 = 4;
+
+const TEXT: i32 = 16;
+const INK: RGBColor = RGBColor(34, 34, 34);
+const FAINT: RGBColor = RGBColor(222, 222, 222);
+
+/// Points of a curve that a page can show; more are thinned out so that every peak stays.
+const MOST_POINTS: usize = 800;
+
+/// Share of the x axis that may be empty on the left.
+const LATE: f64 = 0.4;
+
+/// Distance of the markers along x.
+const MARKER_GAP: i32 = 64 * FINE;
+
+/// Curves over one pair of axes.
+pub struct Chart {
+    /// Name of its file, unique within the page.
+    pub id: String,
+    pub title: String,
+    /// What it shows, for the caption.
+    pub caption: String,
+    /// One of many of its kind, which a page may fold away.
+    pub detail: bool,
+    /// The table that holds its numbers.
+    pub table: &'static str,
+    /// Axis labels, with units.
+    pub x: String,
+    pub y: String,
+    pub curves: Vec<Curve>,
+}
+
+/// One curve; a point without a finite y is a gap.
+pub struct Curve {
+    pub label: String,
+    /// Chooses colour, dashes and marker; the same case has the same one in all charts.
+    pub style: usize,
+    pub points: Vec<(f64, f64)>,
+}
+
+/// A chart as a file of its own and as part of a page.
+pub struct Drawing {
+    pub standalone: String,
+    pub inline: String,
+}
+
+impl Chart {
+    pub fn draw(&self) -> Result<Drawing, ReportError> {
+        let failed = |error: &dyn Display| ReportError::Figure {
+            figure: self.id.clone(),
+            reason: error.to_string(),
+        };
+        let mut svg = String::new();
+        let size = (WIDTH * FINE as u32, HEIGHT * FINE as u32);
+        {
+            prepare_fonts();
+            let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+            self.draw_on(&root).map_err(|error| failed(&error))?;
+            root.present().map_err(|error| failed(&error))?;
+        }
+        let start = svg.find('\n').ok_or_else(|| failed(&"the drawing is empty"))?;
+        let end = svg.rfind("</svg>").ok_or_else(|| failed(&"the drawing has no end"))?;
+        Ok(self.wrap(&svg[start + 1..end]))
+    }
+
+    /// Gives the drawing a name and a description for those who cannot see it.
+    fn wrap(&self, body: &str) -> Drawing {
+        let escape = |text: &str| {
+            text.replace('&', "&amp;")
+                .replace('<', "&lt;")
+                .replace('>', "&gt;")
+                .replace('"', "&quot;")
+        };
+        let (id, title, about) = (&self.id, escape(&self.title), escape(&self.describe()));
+        let (wide, high) = (WIDTH as i32 * FINE, HEIGHT as i32 * FINE);
+        let head = format!(
+            "width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {wide} {high}\" role=\"img\" \
+             aria-labelledby=\"{id}-title {id}-about\">\n\
+             <title id=\"{id}-title\">{title}</title>\n<desc id=\"{id}-about\">{about}</desc>\n\
+             <g aria-hidden=\"true\">\n{body}</g>\n</svg>\n"
+        );
+        Drawing {
+            standalone: format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {head}"),
+            inline: format!("<svg {head}"),
+        }
+    }
+
+    /// The course of every curve in words.
+    fn describe(&self) -> String {
+        let course = |curve: &Curve| {
+            let mut seen = curve.points.iter().filter(|point| point.1.is_finite());
+            let (Some(first), last) = (seen.next(), seen.next_back()) else {
+                return format!("{}: no data.", curve.label);
+            };
+            let number = |value| numbers::significant(value, 3);
+            let last = last.unwrap_or(first);
+            let top = curve
+                .points
+                .iter()
+                .filter(|point| point.1.is_finite())
+                .max_by(|a, b| a.1.total_cmp(&b.1));
+            let top = top.unwrap_or(first);
+            format!(
+                "{}: from {} at {} to {} at {}, highest {} at {}.",
+                curve.label,
+                number(first.1),
+                number(first.0),
+                number(last.1),
+                number(last.0),
+                number(top.1),
+                number(top.0)
+            )
+        };
+        let courses: Vec<String> = self.curves.iter().map(course).collect();
+        format!("{} over {}. {}", self.y, self.x, courses.join(" "))
+    }
+
+    fn draw_on<DB: DrawingBackend>(
+        &self,
+        root: &DrawingArea<DB, plotters::coord::Shift>,
+    ) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
+        root.fill(&WHITE)?;
+        let legend = self.draw_legend(root)?;
+        let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
+        let (x, y) = self.ranges();
+        let mut chart = ChartBuilder::on(root)
+            .margin_left(4 * FINE)
+            .margin_right(18 * FINE)
+            .margin_bottom(4 * FINE)
+            .margin_top(legend + 6 * FINE)
+            .x_label_area_size(48 * FINE)
+            .y_label_area_size(74 * FINE)
+            .build_cartesian_2d(x, y)?;
+        chart
+            .configure_mesh()
+            .x_labels(6)
+            .y_labels(7)
+            .max_light_lines(0)
+            .bold_line_style(FAINT.stroke_width(FINE as u32))
+            .axis_style(INK.stroke_width(FINE as u32))
+            .set_all_tick_mark_size(5 * FINE)
+            .label_style(font.clone())
+            .axis_desc_style(font)
+            .x_label_formatter(&|value| numbers::tick(*value))
+            .y_label_formatter(&|value| numbers::tick(*value))
+            .x_desc(&self.x)
+            .y_desc(&self.y)
+            .draw()?;
+        self.curves.iter().try_for_each(|curve| curve.draw_on(&mut chart))
+    }
+
+    /// A line, a marker and a name for each curve, in rows; gives the height used.
+    fn draw_legend<DB: DrawingBackend>(
+        &self,
+        root: &DrawingArea<DB, plotters::coord::Shift>,
+    ) -> Result<i32, DrawingAreaErrorKind<DB::ErrorType>> {
+        let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
+        let (line, gap, row) = (28 * FINE, 7 * FINE, 24 * FINE);
+        let (left, right) = (78 * FINE, (WIDTH as i32 - 10) * FINE);
+        let (mut x, mut y) = (left, row * 2 / 3);
+        for curve in &self.curves {
+            let width = line + gap + root.estimate_text_size(&curve.label, &font)?.0 as i32 + 2 * gap;
+            if x > left && x + width > right {
+                (x, y) = (left, y + row);
+            }
+            let ends = [(x, y), (x + line, y)];
+            match palette::DASHES[curve.style % palette::DASHES.len()] {
+                None => root.draw(&PathElement::new(ends, curve.stroke()))?,
+                Some((dash, pause)) => {
+                    root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?
+                }
+            }
+            root.draw(&curve.marker((x + line / 2, y)))?;
+            root.draw(&Text::new(
+                curve.label.clone(),
+                (x + line + gap, y - TEXT * FINE / 2),
+                font.clone(),
+            ))?;
+            x += width;
+        }
+        Ok(y + row / 2)
+    }
+
+    /// What the axes span: the data, zero, and a little more above and below.
+    fn ranges(&self) -> (std::ops::Range<f64>, std::ops::Range<f64>) {
+        let points = || {
+            self.curves
+                .iter()
+                .flat_map(|curve| &curve.points)
+                .filter(|point| point.1.is_finite())
+        };
+        let span = |values: &mut dyn Iterator<Item = f64>| {
+            values.fold((0.0_f64, 0.0_f64), |(low, high), value| {
+                (low.min(value), high.max(value))
+            })
+        };
+        let (_, right) = span(&mut points().map(|point| point.0));
+        // Curves that begin late are shown from where they begin.
+        let left = points().map(|point| point.0).fold(right, f64::min);
+        let left = if left > LATE * right {
+            left - 0.1 * (right - left)
+        } else {
+            left.min(0.0)
+        };
+        let (low, high) = span(&mut points().map(|point| point.1));
+        let right = if right > left { right } else { left + 1.0 };
+        let room = if high > low { 0.04 * (high - low) } else { 1.0 };
+        (left..right, if low < 0.0 { low - room } else { 0.0 }..high + room)
+    }
+}
+
+type Axes<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+impl Curve {
+    fn stroke(&self) -> ShapeStyle {
+        let [red, green, blue] = palette::LINES[self.style % palette::LINES.len()];
+        RGBColor(red, green, blue).stroke_width(2 * FINE as u32)
+    }
+
+    fn draw_on<DB: DrawingBackend>(&self, chart: &mut Axes<DB>) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
+        for piece in self
+            .points
+            .split(|point| !point.1.is_finite())
+            .filter(|piece| !piece.is_empty())
+        {
+            let points = thinned(piece);
+            match palette::DASHES[self.style % palette::DASHES.len()] {
+                None => chart.draw_series([PathElement::new(points, self.stroke())])?,
+                Some((dash, pause)) => {
+                    chart.draw_series(DashedLineSeries::new(points, dash * FINE, pause * FINE, self.stroke()))?
+                }
+            };
+        }
+        let seen = self.points.iter().filter(|point| point.1.is_finite());
+        // Markers of different curves stand at different places.
+        let start = chart.backend_coord(&(chart.x_range().start, 0.0)).0;
+        let mut next = start + (self.style % 4 + 1) as i32 * MARKER_GAP / 5;
+        let mut marks = Vec::new();
+        for place in seen.map(|point| chart.backend_coord(point)) {
+            if place.0 >= next {
+                marks.push(place);
+                next += MARKER_GAP * ((place.0 - next) / MARKER_GAP + 1);
+            }
+        }
+        let area = chart.plotting_area().strip_coord_spec();
+        let (left, top) = area.get_base_pixel();
+        marks
+            .into_iter()
+            .try_for_each(|(x, y)| area.draw(&self.marker((x - left, y - top))))
+    }
+
+    /// A dot, a square, a triangle or a diamond.
+    fn marker(&self, at: (i32, i32)) -> Polygon<(i32, i32)> {
+        let size = f64::from(5 * FINE);
+        let (corners, turn): (u32, f64) =
+            [(12, 0.0), (4, 0.125), (3, 0.25), (4, 0.0)][self.style / 2 % 2 * 2 + self.style % 2];
+        let corner = |index: u32| {
+            let angle = std::f64::consts::TAU * (f64::from(index) / f64::from(corners) + turn);
+            (
+                at.0 + (size * angle.cos()).round() as i32,
+                at.1 - (size * angle.sin()).round() as i32,
+            )
+        };
+        Polygon::new((0..corners).map(corner).collect::<Vec<_>>(), self.stroke().filled())
+    }
+}
+
+/// Keeps the first, lowest, highest and last point of each stretch.
+fn thinned(points: &[(f64, f64)]) -> Vec<(f64, f64)> {
+    if points.len() <= MOST_POINTS {
+        return points.to_vec();
+    }
+    let stretch = points.len().div_ceil(MOST_POINTS / 4);
+    let keep = |piece: &[(f64, f64)]| {
+        let by_height = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
+        let mut kept: Vec<(f64, f64)> = [
+            piece.first(),
+            piece.iter().min_by(by_height),
+            piece.iter().max_by(by_height),
+            piece.last(),
+        ]
+        .into_iter()
+        .flatten()
+        .copied()
+        .collect();
+        kept.sort_by(|a, b| a.0.total_cmp(&b.0));
+        kept.dedup();
+        kept
+    };
+    points.chunks(stretch).flat_map(keep).collect()
+}
+
+/// The font with which plotters measures and paints text; it has none of its own.
+pub fn prepare_fonts() {
+    static ONCE: Once = Once::new();
+    ONCE.call_once(|| {
+        // A font that cannot be read shows as an error of the first figure.
+        let _ = register_font("sans-serif", FontStyle::Normal, dejavu::sans::regular());
+    });
+}

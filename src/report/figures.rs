@@ -1,0 +1,199 @@
+//! The line charts of a report.
+
+use super::Analysed;
+use super::chart::{Chart, Curve};
+use super::tables::profile_at_initiation;
+use super::units::{GIGAPASCAL, PERCENT};
+use crate::analysis::series::Probe;
+use crate::analysis::speed::Speed;
+
+/// All charts that have something to show.
+pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
+    let mut charts = vec![
+        stress_strain(cases),
+        crack_speed(cases),
+        tip_position(cases),
+        profile(cases),
+        imbalance(cases),
+    ];
+    charts.extend(cases.iter().enumerate().map(|(index, case)| energies(index, case)));
+    for chart in &mut charts {
+        chart
+            .curves
+            .retain(|curve| curve.points.iter().any(|point| point.1.is_finite()));
+    }
+    charts.retain(|chart| !chart.curves.is_empty());
+    charts
+}
+
+/// One curve a case.
+fn curves(cases: &[Analysed], points: impl Fn(&Analysed) -> Vec<(f64, f64)>) -> Vec<Curve> {
+    let curve = |(style, case)| Curve {
+        label: Analysed::name(case).to_owned(),
+        style,
+        points: points(case),
+    };
+    cases.iter().enumerate().map(curve).collect()
+}
+
+/// Points of a quantity over the strain in percent.
+fn over_strain(case: &Analysed, of: impl Fn(&Probe) -> f64) -> Vec<(f64, f64)> {
+    case.result
+        .series
+        .probes
+        .iter()
+        .map(|row| (row.strain * PERCENT, of(row)))
+        .collect()
+}
+
+fn stress_strain(cases: &[Analysed]) -> Chart {
+    Chart {
+        id: "stress-strain".to_owned(),
+        detail: false,
+        table: "stress_strain",
+        title: "Average stress over strain".to_owned(),
+        caption: "Average virial stress across the crack plane of everything between the grips, over the nominal \
+                  strain. Curves that lie on each other below initiation show that the coarser mesh is as stiff as \
+                  the finer; the drop is the crack."
+            .to_owned(),
+        x: "nominal strain (%)".to_owned(),
+        y: "average σyy (GPa)".to_owned(),
+        curves: curves(cases, |case| over_strain(case, |row| row.sigma_yy * GIGAPASCAL)),
+    }
+}
+
+fn crack_speed(cases: &[Analysed]) -> Chart {
+    let speed = |case: &Analysed| {
+        let rows = case.result.series.probes.iter().zip(&case.findings.speeds);
+        let share = |speed: &Option<Speed>| {
+            speed
+                .zip(case.rayleigh_speed())
+                .map_or(f64::NAN, |(speed, rayleigh)| speed.value / rayleigh)
+        };
+        rows.map(|(row, speed)| (row.strain * PERCENT, share(speed))).collect()
+    };
+    Chart {
+        id: "crack-speed".to_owned(),
+        detail: false,
+        table: "crack_speed",
+        title: "Crack speed over strain".to_owned(),
+        caption:
+            "Speed of the foremost tip along the crack, over the Rayleigh speed of this lattice. There is no curve \
+                  before the crack starts. The window of the fit is stated under Method."
+                .to_owned(),
+        x: "nominal strain (%)".to_owned(),
+        y: "crack speed / c_R".to_owned(),
+        curves: curves(cases, speed),
+    }
+}
+
+fn tip_position(cases: &[Analysed]) -> Chart {
+    let position = |case: &Analysed| {
+        let rows = case.result.series.probes.iter().zip(&case.findings.tips);
+        rows.map(|(row, tip)| (row.time, tip.x)).collect()
+    };
+    Chart {
+        id: "tip-position".to_owned(),
+        detail: false,
+        table: "crack_speed",
+        title: "Tip position over time".to_owned(),
+        caption: "Distance of the foremost tip from the left edge, in the reference configuration.".to_owned(),
+        x: "time (ps)".to_owned(),
+        y: "tip x (nm)".to_owned(),
+        curves: curves(cases, position),
+    }
+}
+
+fn profile(cases: &[Analysed]) -> Chart {
+    let stress = |case: &Analysed| {
+        profile_at_initiation(case)
+            .into_iter()
+            .map(|(_, distance, stress)| (distance, stress[1] * GIGAPASCAL))
+            .collect()
+    };
+    Chart {
+        id: "stress-profile".to_owned(),
+        detail: false,
+        table: "stress_profile",
+        title: "Stress ahead of the tip at initiation".to_owned(),
+        caption: "Virial stress across the crack plane ahead of the tip, at the last probe before the crack starts. \
+                  Its fall with the root of the distance gives the stress intensity."
+            .to_owned(),
+        x: "distance ahead of the tip (nm)".to_owned(),
+        y: "σyy (GPa)".to_owned(),
+        curves: curves(cases, stress),
+    }
+}
+
+fn imbalance(cases: &[Analysed]) -> Chart {
+    let error = |case: &Analysed| {
+        let work = case
+            .result
+            .series
+            .probes
+            .iter()
+            .map(|row| row.work.abs())
+            .fold(0.0, f64::max);
+        let start = case.result.series.probes.first().map_or(0.0, balance);
+        over_strain(case, |row| {
+            if work > 0.0 {
+                (balance(row) - start) / work * PERCENT
+            } else {
+                f64::NAN
+            }
+        })
+    };
+    Chart {
+        id: "energy-imbalance".to_owned(),
+        detail: true,
+        table: "stress_strain",
+        title: "Energy imbalance over strain".to_owned(),
+        caption: "Kinetic and potential energy gained, less the work of the grips and what the cutoff released, over \
+                  the largest work. It would be zero with an infinitely short time step."
+            .to_owned(),
+        x: "nominal strain (%)".to_owned(),
+        y: "imbalance (% of work)".to_owned(),
+        curves: curves(cases, error),
+    }
+}
+
+fn balance(row: &Probe) -> f64 {
+    row.kinetic + row.potential - row.work - row.cutoff_release
+}
+
+fn energies(index: usize, case: &Analysed) -> Chart {
+    let probes = &case.result.series.probes;
+    let start = probes.first().copied().unwrap_or_default();
+    let largest = probes
+        .iter()
+        .map(|row| row.work.abs().max(row.potential.abs()))
+        .fold(0.0, f64::max);
+    let (unit, size) = [("MeV", 1e6), ("keV", 1e3)]
+        .into_iter()
+        .find(|unit| largest >= unit.1)
+        .unwrap_or(("eV", 1.0));
+    let curve = |style, label: &str, of: &dyn Fn(&Probe) -> f64| Curve {
+        label: label.to_owned(),
+        style,
+        points: over_strain(case, |row| of(row) / size),
+    };
+    Chart {
+        id: format!("energy-{index}"),
+        detail: true,
+        table: "stress_strain",
+        title: format!("Energy ledger of {}", case.name()),
+        caption: format!(
+            "Where the work of the grips goes in {}: strain energy until the crack starts, then surfaces and motion. \
+             Kinetic energy is counted from the start.",
+            case.name()
+        ),
+        x: "nominal strain (%)".to_owned(),
+        y: format!("energy ({unit})"),
+        curves: vec![
+            curve(0, "grip work", &|row| row.work),
+            curve(1, "potential", &|row| row.potential),
+            curve(2, "kinetic", &|row| row.kinetic - start.kinetic),
+            curve(3, "cutoff release", &|row| row.cutoff_release),
+        ],
+    }
+}

@@ -1,0 +1,106 @@
+//! The rules behind the numbers, in words, with the values in force.
+
+use super::Analysed;
+use super::numbers::significant;
+use crate::analysis::comparison::FROM_SHARE;
+use crate::analysis::crack::YARDSTICK_SPACINGS;
+use crate::analysis::history::{ARREST_SPEED, SPUR_ELEMENTS, SPUR_SPACINGS};
+use crate::analysis::initiation::ADVANCE_SPACINGS;
+use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
+use crate::analysis::stress_intensity::{FROM_ELEMENTS, FROM_SPACINGS, TO_SHARE};
+
+/// A term and what it means here.
+pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
+    let percent = |share: f64| significant(share * 100.0, 3);
+    let mut notes = vec![
+        (
+            "Crack",
+            "The broken nearest-neighbour bonds that hang together with the notch; fragments and holes away from it do \
+             not count. The tip is its foremost point, in the reference configuration, from the left edge and from \
+             the crack plane. A bond that closes far behind the tip is a contact of the faces and does not end the \
+             crack."
+                .to_owned(),
+        ),
+        (
+            "Arc length",
+            format!(
+                "Length of the shortest broken path from the mouth to the tip, measured with a yardstick of \
+                 {YARDSTICK_SPACINGS} lattice spacings."
+            ),
+        ),
+        (
+            "Initiation",
+            format!(
+                "The first probe from which on the crack stays longer than the notch by more than {ADVANCE_SPACINGS} \
+                 spacings and one element edge at the crack plane."
+            ),
+        ),
+        (
+            "Crack speed",
+            format!(
+                "Slope of the arc length over time by least squares. The window is the time in which a crack at \
+                 {WINDOW_SPEED} c_R runs {WINDOW_ADVANCES} times the advance that counts as initiation (stated for \
+                 each case under Provenance); c_R is the exact Rayleigh speed of this lattice and cutoff."
+            ),
+        ),
+        (
+            "K near the tip",
+            format!(
+                "Least-squares fit of σyy √(2πr) = K (1 + c r) at the last probe before initiation, from r = \
+                 {FROM_SPACINGS} spacings (at least {FROM_ELEMENTS} element edges) to {} % of the crack length, the \
+                 ligament or the height, whichever is smallest; ± is the standard error of the fit alone.",
+                percent(TO_SHARE)
+            ),
+        ),
+        (
+            "K of Griffith",
+            "√(2γE) over the thickness, with the energy that the potential and its treatment at the cutoff need to \
+             part a close-packed row, and the two-dimensional Young's modulus."
+                .to_owned(),
+        ),
+        (
+            "Branches",
+            format!(
+                "Side paths of at least {SPUR_SPACINGS} spacings (and {SPUR_ELEMENTS} element edges) that end at least \
+                 half of that away from the others. The angle is that of their first stretch, from the x axis. \
+                 Arrested means slower than {ARREST_SPEED} c_R over the last such length."
+            ),
+        ),
+        (
+            "Comparison",
+            format!(
+                "Each case is measured against the one with the most nodes on the same specimen. Stresses are compared \
+                 at equal strain, from {} % of the earliest initiation strain among these cases up to it, as the \
+                 largest difference; speeds as the mean difference while both cracks run, without sign.",
+                percent(FROM_SHARE)
+            ),
+        ),
+        (
+            "Waves",
+            "Predicted arrivals at the tip, counted from initiation, for straight paths and a tip at rest; nothing is \
+             picked from the computed fields yet."
+                .to_owned(),
+        ),
+        (
+            "Energy error",
+            "Largest |Δkinetic + Δpotential − work − cutoff release| over the largest work. The cutoff release is what \
+             the energy jumps where a pair crosses a truncated cutoff; it is zero where the potential is smooth."
+                .to_owned(),
+        ),
+    ];
+    let treatment = |case: &Analysed| {
+        let about = case
+            .result
+            .choices
+            .iter()
+            .filter(|choice| choice.0.contains("potential"));
+        about
+            .map(|(key, value)| format!("{key} = {value}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let mut treatments: Vec<String> = cases.iter().map(treatment).filter(|text| !text.is_empty()).collect();
+    treatments.dedup();
+    notes.extend(treatments.into_iter().map(|text| ("Potential", text)));
+    notes
+}

@@ -1,0 +1,120 @@
+//! Numbers as people read them.
+
+/// What stands where there is no value.
+pub const ABSENT: &str = "–";
+
+/// A number with so many significant digits, without trailing zeros beyond them; large ones in groups of three.
+pub fn significant(value: f64, digits: usize) -> String {
+    if !value.is_finite() {
+        return ABSENT.to_owned();
+    }
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    let rounded = round_significant(value, digits);
+    let magnitude = rounded.abs().log10().floor() as i32;
+    if !(-4..9).contains(&magnitude) {
+        let (mantissa, exponent) = (rounded / 10f64.powi(magnitude), magnitude);
+        return minus(format!("{mantissa:.*} × 10{}", digits - 1, superscript(exponent)));
+    }
+    let decimals = (digits as i32 - 1 - magnitude).max(0) as usize;
+    let text = format!("{rounded:.decimals$}");
+    let (whole, rest) = text.split_at(text.find('.').unwrap_or(text.len()));
+    minus(format!("{}{rest}", grouped(whole)))
+}
+
+pub fn count(value: u64) -> String {
+    grouped(&value.to_string())
+}
+
+/// A share in percent, with its sign.
+pub fn signed_percent(share: f64) -> String {
+    let text = format!("{:+.1} %", share * 100.0);
+    minus(if text == "-0.0 %" { "+0.0 %".to_owned() } else { text })
+}
+
+/// Seconds as `0.84 s`, `3 min 20 s`, `2 h 05 min`.
+pub fn duration(seconds: f64) -> String {
+    let whole = seconds.round() as u64;
+    match whole {
+        0..60 => format!("{} s", significant(seconds, 3)),
+        60..3600 => format!("{} min {:02} s", whole / 60, whole % 60),
+        _ => format!("{} h {:02} min", whole / 3600, whole % 3600 / 60),
+    }
+}
+
+/// The nearest number with so many significant decimal digits.
+pub fn round_significant(value: f64, digits: usize) -> f64 {
+    format!("{value:.*e}", digits.saturating_sub(1))
+        .parse()
+        .unwrap_or(value)
+}
+
+/// The label of a tick: as many digits as it takes.
+pub fn tick(value: f64) -> String {
+    let rounded = round_significant(value, 10);
+    minus(if rounded.abs() < 1e-12 {
+        "0".to_owned()
+    } else {
+        format!("{rounded}")
+    })
+}
+
+fn grouped(digits: &str) -> String {
+    let (sign, digits) = digits.strip_prefix('-').map_or(("", digits), |rest| ("-", rest));
+    if digits.len() < 5 {
+        return format!("{sign}{digits}");
+    }
+    let mut text = String::from(sign);
+    for (place, digit) in digits.chars().enumerate() {
+        if place > 0 && (digits.len() - place).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+fn superscript(exponent: i32) -> String {
+    let raised = |digit: char| match digit {
+        '-' => '⁻',
+        '1' => '¹',
+        '2' => '²',
+        '3' => '³',
+        digit => char::from_u32('⁰' as u32 + digit.to_digit(10).unwrap_or(0)).unwrap_or(digit),
+    };
+    exponent.to_string().chars().map(raised).collect()
+}
+
+/// The minus sign proper instead of the hyphen.
+fn minus(text: String) -> String {
+    text.replace('-', "−")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_keep_their_significant_digits() {
+        assert_eq!(significant(0.018_123, 3), "0.0181");
+        assert_eq!(significant(1234.5, 3), "1230");
+        assert_eq!(significant(71_280.0, 5), "71\u{202f}280");
+        assert_eq!(significant(-2.5e-7, 2), "−2.5 × 10⁻⁷");
+        assert_eq!(significant(9.996, 3), "10.0");
+        assert_eq!(significant(f64::NAN, 3), ABSENT);
+    }
+
+    #[test]
+    fn durations_are_given_in_the_largest_two_units() {
+        assert_eq!(duration(0.8412), "0.841 s");
+        assert_eq!(duration(200.2), "3 min 20 s");
+        assert_eq!(duration(7500.0), "2 h 05 min");
+    }
+
+    #[test]
+    fn percentages_carry_their_sign() {
+        assert_eq!(signed_percent(0.0061), "+0.6 %");
+        assert_eq!(signed_percent(-0.0001), "+0.0 %");
+    }
+}

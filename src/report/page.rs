@@ -1,0 +1,193 @@
+//! The page: everything a reader needs, in one file that asks nothing of the network.
+
+use super::chart::{Chart, Drawing};
+use super::picture::{Gallery, Picture};
+use super::summary::{self, Group};
+use super::tables::Table;
+use super::{Analysed, ReportError, Study, method, numbers};
+use minijinja::syntax::SyntaxConfig;
+use minijinja::{AutoEscape, Environment, Value, context};
+
+/// Tables longer than this are linked instead of shown.
+const SHOWN_ROWS: usize = 60;
+
+/// What the page is made from.
+pub struct Page<'a> {
+    pub study: &'a Study,
+    pub cases: &'a [Analysed<'a>],
+    pub tables: &'a [Table],
+    pub charts: &'a [Chart],
+    pub drawn: &'a [Drawing],
+    pub gallery: &'a Gallery,
+}
+
+impl Page<'_> {
+    pub fn html(&self) -> Result<String, ReportError> {
+        self.render("report.html", include_str!("templates/report.html"))
+    }
+
+    pub fn markdown(&self) -> Result<String, ReportError> {
+        self.render("report.md", include_str!("templates/report.md"))
+    }
+
+    fn render(&self, name: &'static str, template: &'static str) -> Result<String, ReportError> {
+        let mut environment = Environment::new();
+        environment.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
+        environment.set_auto_escape_callback(|name| match name.ends_with(".html") {
+            true => AutoEscape::Html,
+            false => AutoEscape::None,
+        });
+        environment.add_filter("cell", markdown_cell);
+        environment.add_filter("block", indented);
+        environment.add_template(name, template)?;
+        let mut versions = self.cases.iter().map(|case| case.result.manifest.version.as_str());
+        let page = context! {
+            title => self.study.title.as_ref().unwrap_or(&self.study.name),
+            name => &self.study.name,
+            question => self.study.question.as_ref(),
+            text => &self.study.text,
+            verdict => summary::verdict(self.cases),
+            names => list(self.cases, |case| case.name().into()),
+            groups => list(&summary::groups(self.cases), group),
+            pictures => list(&self.gallery.pictures, picture),
+            limit => numbers::tick(self.gallery.limit),
+            charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
+            tables => list(self.tables, table),
+            cases => list(self.cases, case),
+            notes => list(&method::notes(self.cases), pair),
+            style => Value::from_safe_string(include_str!("templates/style.css").to_owned()),
+            version => versions.find(|version| !version.is_empty()),
+        };
+        Ok(environment.get_template(name)?.render(page)?)
+    }
+}
+
+/// A list for the template.
+fn list<T>(items: &[T], view: impl Fn(&T) -> Value) -> Value {
+    items.iter().map(view).collect::<Vec<Value>>().into()
+}
+
+fn chart((chart, drawing): (&Chart, &Drawing)) -> Value {
+    let svg = Value::from_safe_string(drawing.inline.clone());
+    context! { id => &chart.id, detail => chart.detail, title => &chart.title, caption => &chart.caption, table => chart.table, svg }
+}
+
+fn picture(picture: &Picture) -> Value {
+    let data = Value::from_safe_string(format!("data:image/png;base64,{}", base64(&picture.png)));
+    context! { file => &picture.file, title => &picture.title, caption => &picture.caption, data }
+}
+
+/// Without rows where the table is too long to be shown.
+fn table(table: &Table) -> Value {
+    let rows = if table.height() <= SHOWN_ROWS {
+        table.rows()
+    } else {
+        Vec::new()
+    };
+    context! { name => table.name, columns => table.columns(), height => table.height(), rows }
+}
+
+fn group(group: &Group) -> Value {
+    let rows = list(
+        &group.rows,
+        |row| context! { label => &row.label, cells => row.cells.clone() },
+    );
+    context! { title => group.title, rows }
+}
+
+fn case(case: &Analysed) -> Value {
+    let failure = case.result.failure.as_ref();
+    context! {
+        name => case.name(),
+        resolved => &case.result.resolved,
+        failure => failure.map(|failure| context! { reason => &failure.reason, log => &failure.log_tail }),
+        run => list(&provenance(case), pair),
+    }
+}
+
+fn pair((label, value): &(&'static str, String)) -> Value {
+    vec![Value::from(*label), Value::from(value)].into()
+}
+
+/// How and where a case ran; what is not known is left out.
+fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
+    let manifest = &case.result.manifest;
+    let picoseconds = |value: f64| format!("{} ps", numbers::significant(value, 4));
+    let lines = [
+        ("state", Some(manifest.state.clone())),
+        ("ended because", manifest.end_reason.clone()),
+        ("case hash", Some(case.result.id.clone())),
+        ("program", Some(manifest.version.clone())),
+        ("commit", manifest.commit.clone()),
+        ("host", manifest.host.clone()),
+        ("ranks", manifest.ranks.map(|ranks| ranks.to_string())),
+        ("threads a rank", manifest.threads.map(|threads| threads.to_string())),
+        ("started", manifest.started.clone()),
+        ("ended", manifest.ended.clone()),
+        ("wall time", manifest.wall_seconds.map(numbers::duration)),
+        ("time step", manifest.time_step.map(picoseconds)),
+        ("stability limit", manifest.stability_limit.map(picoseconds)),
+        ("speed fitted over", case.findings.speed_window.map(picoseconds)),
+    ];
+    let known = lines.into_iter().filter_map(|(label, value)| Some((label, value?)));
+    known.filter(|line| !line.1.is_empty()).collect()
+}
+
+/// Text that stays within a cell of a Markdown table and is not taken for markup.
+fn markdown_cell(text: &str) -> String {
+    let mut safe = String::new();
+    for sign in text.chars() {
+        match sign {
+            '<' => safe.push_str("&lt;"),
+            '>' => safe.push_str("&gt;"),
+            '&' => safe.push_str("&amp;"),
+            '\n' | '\r' => safe.push(' '),
+            '|' | '*' | '_' | '`' | '[' | ']' | '\\' | '#' => safe.extend(['\\', sign]),
+            sign => safe.push(sign),
+        }
+    }
+    safe
+}
+
+/// Text as a block of code that nothing in it can end.
+fn indented(text: &str) -> String {
+    text.lines().map(|line| format!("    {line}\n")).collect()
+}
+
+/// Bytes as text for a data address. [RFC 4648]
+fn base64(bytes: &[u8]) -> String {
+    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
+    for group in bytes.chunks(3) {
+        let word = group.iter().fold(0, |word, &byte| word << 8 | u32::from(byte)) << (8 * (3 - group.len()));
+        for place in 0..4 {
+            let sign = SIGNS[(word >> (18 - 6 * place) & 63) as usize];
+            text.push(if place <= group.len() { char::from(sign) } else { '=' });
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn base64_follows_the_test_vectors_of_the_standard() {
+        let vectors = [
+            ("", ""),
+            ("f", "Zg=="),
+            ("fo", "Zm8="),
+            ("foo", "Zm9v"),
+            ("foobar", "Zm9vYmFy"),
+        ];
+        vectors
+            .iter()
+            .for_each(|(plain, coded)| assert_eq!(base64(plain.as_bytes()), *coded));
+    }
+
+    #[test]
+    fn markdown_cells_cannot_be_left() {
+        assert_eq!(markdown_cell("a|b\n<i>"), "a\\|b &lt;i&gt;");
+    }
+}

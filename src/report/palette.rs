@@ -1,0 +1,36 @@
+//! Colours that people with any colour vision can tell apart.
+
+/// Line colours, after Okabe and Ito; the darker ones first, so that few lines stand out well on white.
+pub const LINES: [[u8; 3]; 7] = [
+    [0, 114, 178],
+    [213, 94, 0],
+    [0, 158, 115],
+    [170, 80, 140],
+    [30, 30, 30],
+    [230, 159, 0],
+    [86, 180, 233],
+];
+
+/// Length of dash and gap; `None` is a full line. Not in step with the colours, so that 28 pairs differ.
+pub const DASHES: [Option<(i32, i32)>; 4] = [None, Some((9, 4)), Some((4, 3)), Some((16, 4))];
+
+/// Stops of the stress scale from compression to tension: dark at zero, so that crack faces, which carry no stress,
+/// stand out against the white that shows through the crack.
+const STRESS: [[f64; 3]; 7] = [
+    [200.0, 226.0, 255.0],
+    [88.0, 158.0, 214.0],
+    [36.0, 88.0, 130.0],
+    [22.0, 24.0, 30.0],
+    [128.0, 44.0, 22.0],
+    [222.0, 108.0, 50.0],
+    [255.0, 214.0, 150.0],
+];
+
+/// Colour of a stress between -1 (full compression) and 1 (full tension); beyond, the end colour.
+pub fn stress(share: f64) -> [u8; 3] {
+    let last = STRESS.len() - 1;
+    let place = (0.5 + 0.5 * share.clamp(-1.0, 1.0)) * last as f64;
+    let stop = (place as usize).min(last - 1);
+    let part = place - stop as f64;
+    std::array::from_fn(|tone| (STRESS[stop][tone] * (1.0 - part) + STRESS[stop + 1][tone] * part).round() as u8)
+}

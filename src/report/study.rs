@@ -1,0 +1,77 @@
+//! What a report is made from: plain values, whoever read them from where.
+
+use crate::analysis::series::{Series, Setting};
+use crate::record::frames::{FieldMesh, Frame};
+
+/// A study and the results of its cases, in the order in which they are to be shown.
+#[derive(Clone, Debug, Default)]
+pub struct Study {
+    pub name: String,
+    /// Heading of the report; the name where there is none.
+    pub title: Option<String>,
+    pub question: Option<String>,
+    /// The study file as typed.
+    pub text: String,
+    pub cases: Vec<CaseResult>,
+}
+
+/// One case: what was asked for, what came out, or why nothing did.
+#[derive(Clone, Debug, Default)]
+pub struct CaseResult {
+    pub name: String,
+    /// Hash of the resolved case.
+    pub id: String,
+    /// The resolved case as text, every default filled in.
+    pub resolved: String,
+    /// The resolved case as pairs of dotted key and value, as a person reads them; the report shows those that differ
+    /// between the cases.
+    pub choices: Vec<(String, String)>,
+    /// `None` where the case did not come as far as its set-up.
+    pub setting: Option<Setting>,
+    pub series: Series,
+    pub last_frame: Option<(FieldMesh, Frame)>,
+    pub manifest: Manifest,
+    pub failure: Option<Failure>,
+}
+
+/// How a case was carried out. What is not known is `None`.
+#[derive(Clone, Debug, Default)]
+pub struct Manifest {
+    /// Where the run stands: `done`, `failed`, `interrupted`, `missing`.
+    pub state: String,
+    /// Program version and source commit.
+    pub version: String,
+    pub commit: Option<String>,
+    pub host: Option<String>,
+    pub ranks: Option<u32>,
+    pub threads: Option<u32>,
+    /// Times of day as text.
+    pub started: Option<String>,
+    pub ended: Option<String>,
+    pub wall_seconds: Option<f64>,
+    /// Which condition ended the run.
+    pub end_reason: Option<String>,
+    /// Time step used and the stability limit, ps.
+    pub time_step: Option<f64>,
+    pub stability_limit: Option<f64>,
+    pub steps: Option<u64>,
+    /// Largest energy imbalance over the largest work.
+    pub energy_error: Option<f64>,
+    pub cost: Vec<Phase>,
+}
+
+/// Time spent in one part of the computation.
+#[derive(Clone, Debug, Default)]
+pub struct Phase {
+    pub name: String,
+    pub calls: u64,
+    pub seconds: f64,
+}
+
+/// Why a case has no result.
+#[derive(Clone, Debug, Default)]
+pub struct Failure {
+    pub reason: String,
+    /// The last lines of the log.
+    pub log_tail: String,
+}

@@ -1,0 +1,302 @@
+//! The tables of a study: absent values are empty, never 0.
+
+use std::fs::File;
+use std::path::Path;
+
+use polars::prelude::*;
+
+use super::numbers::{self, round_significant};
+use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
+use super::{Analysed, ReportError};
+use crate::analysis::stress_intensity;
+use crate::analysis::waves::{Face, Wave};
+
+/// Digits of a number in a file: more than any of them means, few enough to be read.
+const DIGITS: usize = 9;
+
+/// Digits of a number on the page.
+const SHOWN_DIGITS: usize = 4;
+
+/// A named table.
+pub struct Table {
+    pub name: &'static str,
+    frame: DataFrame,
+}
+
+/// All tables, in the order in which they are shown.
+pub fn all(cases: &[Analysed]) -> Result<Vec<Table>, ReportError> {
+    let tables = [
+        ("summary", summary(cases)),
+        ("crack_speed", crack_speed(cases)),
+        ("stress_profile", stress_profile(cases)),
+        ("stress_strain", stress_strain(cases)),
+        ("wave_arrival", wave_arrival(cases)),
+        ("branches", branches(cases)),
+        ("cost", cost(cases)),
+    ];
+    let make = |(table, columns)| match DataFrame::new_infer_height(columns) {
+        Ok(frame) => Ok(Table { name: table, frame }),
+        Err(error) => Err(ReportError::Table {
+            table,
+            reason: error.to_string(),
+        }),
+    };
+    tables.into_iter().map(make).collect()
+}
+
+impl Table {
+    /// Writes `<name>.csv` into a folder, and `<name>.parquet` where that is built in.
+    pub fn write(&mut self, folder: &Path) -> Result<(), ReportError> {
+        let failed = |table, error: PolarsError| ReportError::Table {
+            table,
+            reason: error.to_string(),
+        };
+        let create = |ending: &str| {
+            let path = folder.join(format!("{}.{ending}", self.name));
+            File::create(&path).map_err(|source| ReportError::Write { path, source })
+        };
+        let csv = create("csv")?;
+        #[cfg(feature = "parquet")]
+        ParquetWriter::new(create("parquet")?)
+            .finish(&mut self.frame)
+            .map_err(|error| failed(self.name, error))?;
+        CsvWriter::new(csv)
+            .finish(&mut self.frame)
+            .map_err(|error| failed(self.name, error))
+    }
+
+    pub fn columns(&self) -> Vec<String> {
+        self.frame
+            .get_column_names()
+            .iter()
+            .map(|name| name.to_string())
+            .collect()
+    }
+
+    pub fn height(&self) -> usize {
+        self.frame.height()
+    }
+
+    /// The cells as a person reads them, row by row.
+    pub fn rows(&self) -> Vec<Vec<String>> {
+        let cell = |column: &Column, row| match column.get(row) {
+            Ok(AnyValue::String(text)) => text.to_owned(),
+            Ok(AnyValue::Float64(value)) => numbers::significant(value, SHOWN_DIGITS),
+            Ok(AnyValue::UInt64(value)) => numbers::count(value),
+            Ok(AnyValue::Boolean(value)) => if value { "yes" } else { "no" }.to_owned(),
+            _ => numbers::ABSENT.to_owned(),
+        };
+        (0..self.height())
+            .map(|row| self.frame.columns().iter().map(|column| cell(column, row)).collect())
+            .collect()
+    }
+}
+
+/// Rows of one kind, from which columns are made.
+struct Rows<T>(Vec<T>);
+
+impl<T> Rows<T> {
+    fn text(&self, name: &str, of: impl Fn(&T) -> &str) -> Column {
+        Column::new(name.into(), self.0.iter().map(of).collect::<Vec<&str>>())
+    }
+
+    fn number<N: Into<Option<f64>>>(&self, name: &str, of: impl Fn(&T) -> N) -> Column {
+        let finite = |row| of(row).into().filter(|value: &f64| value.is_finite());
+        let values = self
+            .0
+            .iter()
+            .map(finite)
+            .map(|value| value.map(|value| round_significant(value, DIGITS)));
+        Column::new(name.into(), values.collect::<Vec<Option<f64>>>())
+    }
+
+    fn count<N: Into<Option<u64>>>(&self, name: &str, of: impl Fn(&T) -> N) -> Column {
+        Column::new(
+            name.into(),
+            self.0.iter().map(|row| of(row).into()).collect::<Vec<Option<u64>>>(),
+        )
+    }
+
+    fn flag(&self, name: &str, of: impl Fn(&T) -> Option<bool>) -> Column {
+        Column::new(name.into(), self.0.iter().map(of).collect::<Vec<Option<bool>>>())
+    }
+}
+
+/// The rows of all cases, one case after the other.
+fn collect<'a, T, I: Iterator<Item = T>>(cases: &'a [Analysed<'a>], of: impl Fn(&'a Analysed<'a>) -> I) -> Rows<T> {
+    Rows(cases.iter().flat_map(of).collect())
+}
+
+fn summary(cases: &[Analysed]) -> Vec<Column> {
+    let rows = Rows(cases.iter().collect());
+    let setting = |case: &&Analysed| case.result.setting.clone();
+    let root_metre = |value: f64| value * MEGAPASCAL_ROOT_METRE;
+    vec![
+        rows.text("case", |case| &case.result.name),
+        rows.count("nodes", |case| setting(case).map(|setting| setting.nodes)),
+        rows.count("elements", |case| setting(case).map(|setting| setting.elements)),
+        rows.count("represented_atoms", |case| {
+            setting(case).map(|setting| setting.represented_atoms)
+        }),
+        rows.count("steps", |case| case.result.manifest.steps),
+        rows.number("time_step_ps", |case| case.result.manifest.time_step),
+        rows.number("wall_s", |case| case.result.manifest.wall_seconds),
+        rows.number("atom_steps_per_s", |case| case.atom_steps_a_second()),
+        rows.number("energy_error_relative", |case| case.result.manifest.energy_error),
+        rows.number("cutoff_release_ev", |case| {
+            case.result.series.probes.last().map(|row| row.cutoff_release)
+        }),
+        rows.number("initiation_strain", |case| {
+            case.findings.initiation.map(|start| start.strain)
+        }),
+        rows.number("initiation_time_ps", |case| {
+            case.findings.initiation.map(|start| start.time)
+        }),
+        rows.number("k_ic_near_tip_mpa_sqrt_m", |case| {
+            case.findings.near_tip.map(|fit| root_metre(fit.value))
+        }),
+        rows.number("k_ic_j_integral_mpa_sqrt_m", |_| None),
+        rows.number("k_griffith_mpa_sqrt_m", |case| case.findings.griffith.map(root_metre)),
+        rows.number("peak_speed_over_c_r", |case| case.peak_speed_over_rayleigh()),
+        rows.number("first_branch_time_ps", |case| {
+            case.findings.first_branch().map(|branch| branch.time)
+        }),
+        rows.number("first_branch_strain", |case| {
+            case.findings.first_branch().map(|branch| branch.strain)
+        }),
+    ]
+}
+
+fn crack_speed(cases: &[Analysed]) -> Vec<Column> {
+    let rows = collect(cases, |case| {
+        let rows = case
+            .result
+            .series
+            .probes
+            .iter()
+            .zip(&case.findings.tips)
+            .zip(&case.findings.speeds);
+        rows.map(move |((probe, tip), speed)| (case, probe, tip, speed.map(|speed| speed.value)))
+    });
+    vec![
+        rows.text("case", |row| &row.0.result.name),
+        rows.number("time_ps", |row| row.1.time),
+        rows.number("strain", |row| row.1.strain),
+        rows.number("tip_x_nm", |row| row.2.x),
+        rows.number("tip_y_nm", |row| row.2.y),
+        rows.number("arc_length_nm", |row| row.2.arc_length),
+        rows.number("speed_m_per_s", |row| row.3.map(|speed| speed * METRE_PER_SECOND)),
+        rows.number("speed_over_c_r", |row| {
+            row.3.and_then(|speed| Some(speed / row.0.rayleigh_speed()?))
+        }),
+    ]
+}
+
+fn stress_profile(cases: &[Analysed]) -> Vec<Column> {
+    let rows = collect(cases, |case| {
+        profile_at_initiation(case).into_iter().map(move |row| (case, row))
+    });
+    let stress = |component: usize| move |row: &(&Analysed, (f64, f64, [f64; 3]))| row.1.2[component] * GIGAPASCAL;
+    vec![
+        rows.text("case", |row| &row.0.result.name),
+        rows.number("time_ps", |row| row.1.0),
+        rows.number("distance_nm", |row| row.1.1),
+        rows.number("sigma_xx_gpa", stress(0)),
+        rows.number("sigma_yy_gpa", stress(1)),
+        rows.number("sigma_xy_gpa", stress(2)),
+    ]
+}
+
+/// Time (ps), distance ahead of the tip (nm) and stress at the probe before initiation.
+pub fn profile_at_initiation(case: &Analysed) -> Vec<(f64, f64, [f64; 3])> {
+    let Some(probe) = case.findings.initiation.and_then(|start| start.probe.checked_sub(1)) else {
+        return Vec::new();
+    };
+    let (series, tip) = (&case.result.series, case.findings.tips[probe].x);
+    let time = series.probes[probe].time;
+    stress_intensity::ahead(series, probe, tip)
+        .map(|(distance, stress)| (time, distance, stress))
+        .collect()
+}
+
+fn stress_strain(cases: &[Analysed]) -> Vec<Column> {
+    let rows = collect(cases, |case| {
+        case.result.series.probes.iter().map(move |probe| (case, probe))
+    });
+    vec![
+        rows.text("case", |row| &row.0.result.name),
+        rows.number("time_ps", |row| row.1.time),
+        rows.number("strain", |row| row.1.strain),
+        rows.number("sigma_xx_gpa", |row| row.1.sigma_xx * GIGAPASCAL),
+        rows.number("sigma_yy_gpa", |row| row.1.sigma_yy * GIGAPASCAL),
+        rows.number("kinetic_energy_ev", |row| row.1.kinetic),
+        rows.number("potential_energy_ev", |row| row.1.potential),
+        rows.number("work_ev", |row| row.1.work),
+        rows.number("cutoff_release_ev", |row| row.1.cutoff_release),
+        rows.number("temperature_k", |row| row.1.temperature),
+    ]
+}
+
+fn wave_arrival(cases: &[Analysed]) -> Vec<Column> {
+    let rows = collect(cases, |case| {
+        case.findings.arrivals.iter().map(move |arrival| (case, arrival))
+    });
+    vec![
+        rows.text("case", |row| &row.0.result.name),
+        rows.text("wave", |row| match row.1.wave {
+            Wave::Longitudinal => "longitudinal",
+            Wave::Transverse => "transverse",
+            Wave::Rayleigh => "rayleigh",
+        }),
+        rows.text("path", |row| match row.1.face {
+            Face::Left => "left face",
+            Face::TopAndBottom => "top and bottom faces",
+        }),
+        rows.number("predicted_ps", |row| row.1.predicted),
+        rows.number("measured_ps", |row| row.1.measured),
+        rows.number("reference_ps", |_| None),
+    ]
+}
+
+/// The main crack has no parent; it is born at initiation, at the end of the notch.
+fn branches(cases: &[Analysed]) -> Vec<Column> {
+    let rows = collect(cases, |case| {
+        let started = case.findings.initiation.map(|_| &case.findings.branches);
+        started
+            .into_iter()
+            .flatten()
+            .zip(0..)
+            .map(move |(branch, index)| (case, branch, index))
+    });
+    let start = |row: &(&Analysed, _, u64)| row.0.findings.initiation.filter(|_| row.2 == 0);
+    let notch = |row: &(&Analysed, _, u64)| row.0.findings.tips.first().filter(|_| row.2 == 0).copied();
+    vec![
+        rows.text("case", |row| &row.0.result.name),
+        rows.count("branch", |row| row.2),
+        rows.count("parent", |row| row.1.parent.map(|parent| parent as u64)),
+        rows.number("time_ps", |row| start(row).map_or(row.1.time, |start| start.time)),
+        rows.number("strain", |row| start(row).map_or(row.1.strain, |start| start.strain)),
+        rows.number("x_nm", |row| notch(row).map_or(row.1.x, |tip| tip.x)),
+        rows.number("y_nm", |row| notch(row).map_or(row.1.y, |tip| tip.y)),
+        rows.number("angle_deg", |row| row.1.parent.map(|_| row.1.angle)),
+        rows.flag("arrested", |row| Some(row.1.arrested)),
+    ]
+}
+
+fn cost(cases: &[Analysed]) -> Vec<Column> {
+    let rows = collect(cases, |case| {
+        case.result.manifest.cost.iter().map(move |phase| (case, phase))
+    });
+    let steps = |row: &(&Analysed, _)| row.0.result.manifest.steps.filter(|&steps| steps > 0);
+    vec![
+        rows.text("case", |row| &row.0.result.name),
+        rows.count("ranks", |row| row.0.result.manifest.ranks.map(u64::from)),
+        rows.count("threads", |row| row.0.result.manifest.threads.map(u64::from)),
+        rows.text("phase", |row| &row.1.name),
+        rows.count("calls", |row| row.1.calls),
+        rows.number("seconds", |row| row.1.seconds),
+        rows.number("seconds_per_step", |row| {
+            steps(row).map(|steps| row.1.seconds / steps as f64)
+        }),
+    ]
+}

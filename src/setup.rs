@@ -1,0 +1,144 @@
+//! A resolved case becomes a ready solver, and a run its folder.
+
+mod estimate;
+mod recorder;
+mod run;
+
+pub use estimate::{Estimate, estimate};
+pub use run::{Finished, RunCaseError, run_case};
+
+use std::time::Duration;
+
+use crate::loading::{Grip, Stretching};
+use crate::material::Material;
+use crate::mesh::region::{Region, Shape};
+use crate::mesh::sites::Layout;
+use crate::mesh::{Mesh, Plan};
+use crate::potential::{AtCutoff, CutPotential, HarmonicBond, Interaction, LennardJones, Morse};
+use crate::solver::{self, Solver, SolverError, TimeStep};
+use crate::study::case::{self, Case};
+use crate::units::U_IN_EV_PS2_PER_NM2;
+
+/// Why a case makes no specimen: sound as a text, but not as physics.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SetupError {
+    #[error(
+        "this potential has no zero-pressure lattice within its cutoff of {cutoff} nm; \
+         its energy is lowest at {minimum:.4} nm, so the cutoff must reach well beyond"
+    )]
+    NoLattice { cutoff: f64, minimum: f64 },
+    #[error(
+        "a specimen of {length} x {width} nm has room for {rows} rows of {triangles} triangles of {block} atoms an edge \
+         ({spacing:.4} nm apart); it needs 4 rows (two are grips) of at least 3: make it larger, or `block` smaller"
+    )]
+    TooSmall { length: f64, width: f64, rows: i32, triangles: i32, block: u32, spacing: f64 },
+    #[error(
+        "a mesh of {sites} sites needs about {needed:.1} GiB and this machine has {present:.1} GiB free; \
+         make the specimen smaller, or use larger elements"
+    )]
+    TooLarge { sites: u64, needed: f64, present: f64 },
+    #[error(transparent)]
+    Solver(#[from] SolverError),
+}
+
+/// The crystal of a case.
+pub fn material(case: &Case) -> Result<Material, SetupError> {
+    let potential = &case.material.potential;
+    let at_cutoff = match potential.at_cutoff {
+        case::AtCutoff::Truncated => AtCutoff::Truncated,
+        case::AtCutoff::Shifted => AtCutoff::Shifted,
+        case::AtCutoff::Smooth { from } => AtCutoff::Smooth { from },
+    };
+    let cutoff = potential.cutoff;
+    let interaction = match potential.shape {
+        case::PotentialShape::LennardJones { epsilon, sigma } => {
+            Interaction::LennardJones(CutPotential::new(LennardJones { epsilon, sigma }, cutoff, at_cutoff))
+        }
+        case::PotentialShape::Morse { depth, decay, distance } => {
+            Interaction::Morse(CutPotential::new(Morse { depth, decay, distance }, cutoff, at_cutoff))
+        }
+        case::PotentialShape::HarmonicBond { stiffness, distance } => {
+            Interaction::HarmonicBond(CutPotential::new(HarmonicBond { stiffness, distance }, cutoff, at_cutoff))
+        }
+    };
+    let site_mass = case.material.mass * U_IN_EV_PS2_PER_NM2;
+    Material::new(interaction, site_mass)
+        .ok_or(SetupError::NoLattice { cutoff, minimum: interaction.minimum() })
+}
+
+/// What the mesh of a case is made from.
+pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
+    let case::Lattice::Triangular = case.specimen.lattice;
+    let spacing = material.spacing;
+    let specimen = &case.specimen;
+    let layout = Layout::nearest(specimen.length / spacing, specimen.width / spacing, specimen.block as i32);
+    if layout.rows < 4 || layout.triangles < 3 {
+        return Err(SetupError::TooSmall {
+            length: specimen.length,
+            width: specimen.width,
+            rows: layout.rows,
+            triangles: layout.triangles.max(0),
+            block: specimen.block,
+            spacing,
+        });
+    }
+    let region = |region: &case::Region| Region {
+        element: region.element as u16,
+        shape: match region.shape {
+            case::RegionShape::Band { half_width } => Shape::Band { half_width },
+            case::RegionShape::Box { from, to } => Shape::Box { from, to },
+            case::RegionShape::Disc { center, radius } => Shape::Disc { center, radius },
+        },
+    };
+    Ok(Plan {
+        layout,
+        element: case.resolution.element as u16,
+        regions: case.resolution.regions.iter().map(region).collect(),
+        crack_length: case.crack.as_ref().map(|case::Crack { edge: case::Edge::Left, length }| length / spacing),
+        grip_rows: specimen.block as i32,
+        spacing,
+    })
+}
+
+/// The solver of a case at the start of its run.
+pub fn solver(case: &Case) -> Result<Solver, SetupError> {
+    let material = material(case)?;
+    let plan = mesh_plan(case, &material)?;
+    estimate::refuse_what_does_not_fit(&plan)?;
+    let mesh = Mesh::new(&plan);
+    let case::Loading::StrainRate { mode: case::Mode::I, rate, ramp } = case.loading;
+    let grip = match case.specimen.grips {
+        case::Grips::Clamped => Grip::Clamped,
+        case::Grips::Sliding => Grip::Sliding,
+    };
+    let loading = Stretching::new(&mesh, rate, grip, ramp == case::Ramp::InitialVelocity);
+    Ok(Solver::new(mesh, material, loading, settings(case, rate))?)
+}
+
+fn settings(case: &Case, rate: f64) -> solver::Settings {
+    let case::Summation::Exact = case.run.summation;
+    let case::MassMatrix::Lumped = case.run.mass;
+    solver::Settings {
+        time_step: time_step(case),
+        until: solver::Until {
+            strain: case.run.until.strain,
+            time: case.run.until.time,
+            crack_length: case.run.until.crack_length,
+            arrest: case.run.until.arrest,
+        },
+        probe_every: case.probes.every,
+        snapshot_every: case.snapshots.every.map(|interval| match interval {
+            case::SnapshotInterval::Strain(strain) => strain / rate,
+            case::SnapshotInterval::Time(time) => time,
+        }),
+        checkpoint_every: Duration::from_secs_f64(case.execution.checkpoint_every),
+        thickness: case.material.thickness,
+    }
+}
+
+fn time_step(case: &Case) -> TimeStep {
+    match case.run.time_step {
+        case::TimeStep::Auto { fraction } => TimeStep::Auto { fraction },
+        case::TimeStep::Given(step) => TimeStep::Given(step),
+    }
+}

@@ -1,0 +1,135 @@
+//! Writes what a solver gives into the folder of its run.
+
+use std::path::{Path, PathBuf};
+
+use crate::analysis::series::{BondEvent, Probe, Series};
+use crate::lattice::triangular;
+use crate::mesh::Mesh;
+use crate::mesh::element::Element;
+use crate::record::frames::{FieldMesh, Frame};
+use crate::record::{self, CHECKPOINT_FILE, RecordError};
+use crate::solver::checkpoint::Checkpoint;
+use crate::solver::{Moment, Observer, Progress, Solver, site_volume};
+
+/// Keeps probes in memory until the next checkpoint, and writes snapshots at once.
+pub struct Recorder<'a> {
+    folder: PathBuf,
+    case_id: String,
+    /// Probes since the last segment, and the number of the first of them.
+    part: Series,
+    first_probe: u64,
+    reference: [Vec<f64>; 2],
+    site_volume: f64,
+    tell: &'a mut (dyn FnMut(&Progress) + Send),
+}
+
+impl<'a> Recorder<'a> {
+    pub fn new(
+        folder: &Path,
+        case_id: String,
+        solver: &Solver,
+        tell: &'a mut (dyn FnMut(&Progress) + Send),
+    ) -> Self {
+        let part = Series { profile_x: solver.profile_x().to_vec(), ..Series::default() };
+        Self {
+            folder: folder.to_path_buf(),
+            case_id,
+            part,
+            first_probe: solver.probe_count(),
+            reference: solver.mesh().node_positions(),
+            site_volume: site_volume(solver.setting()),
+            tell,
+        }
+    }
+
+    /// Writes the probes kept in memory.
+    pub fn flush(&mut self) -> Result<(), RecordError> {
+        record::write_segment(&self.folder, self.first_probe, &self.part)?;
+        self.first_probe += self.part.probes.len() as u64;
+        let profile_x = std::mem::take(&mut self.part.profile_x);
+        self.part = Series { profile_x, ..Series::default() };
+        Ok(())
+    }
+
+    fn frame(&self, moment: &Moment) -> Frame {
+        let Moment { mesh, state, measure, .. } = moment;
+        let planes = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(&x, &y)| [x, y]).collect();
+        let shift = |axis: usize| -> Vec<f64> {
+            state.position[axis].iter().zip(&self.reference[axis]).map(|(now, then)| now - then).collect()
+        };
+        let stress = mesh.elements.iter().zip(&measure.virial).map(|(element, virial)| {
+            let volume = element.site_count() as f64 * self.site_volume;
+            virial.map(|component| component / volume)
+        });
+        Frame {
+            step: moment.step,
+            time: moment.time,
+            strain: moment.strain,
+            displacement: planes(&shift(0), &shift(1)),
+            velocity: planes(&state.velocity[0], &state.velocity[1]),
+            stress: stress.collect(),
+            damage: damage(mesh, moment.broken),
+        }
+    }
+}
+
+impl Observer for Recorder<'_> {
+    type Error = RecordError;
+
+    fn probe(&mut self, probe: &Probe, profile: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), RecordError> {
+        self.part.probes.push(*probe);
+        self.part.profiles.extend_from_slice(profile);
+        self.part.bonds.extend_from_slice(bonds);
+        Ok(())
+    }
+
+    fn snapshot(&mut self, moment: &Moment) -> Result<(), RecordError> {
+        record::write_frame(&self.folder, &self.frame(moment))
+    }
+
+    fn checkpoint(&mut self, checkpoint: &Checkpoint) -> Result<(), RecordError> {
+        self.flush()?;
+        record::checkpoint::write(&self.folder.join(CHECKPOINT_FILE), &self.case_id, checkpoint)
+    }
+
+    fn progress(&mut self, progress: &Progress) {
+        (self.tell)(progress);
+    }
+}
+
+/// Cells and reference positions, x from the left edge and y from the crack plane.
+pub fn field_mesh(solver: &Solver) -> FieldMesh {
+    let mesh = solver.mesh();
+    let [left, middle] = [solver.setting().left_x, mesh.middle_height()];
+    let [x, y] = mesh.node_positions();
+    let mut offsets = vec![0];
+    for element in &mesh.elements {
+        offsets.push(offsets[offsets.len() - 1] + element.node_count() as u32);
+    }
+    FieldMesh {
+        points: x.iter().zip(&y).map(|(x, y)| [x - left, y - middle]).collect(),
+        connectivity: (0..mesh.node_count() as u32).collect(),
+        offsets,
+        element_size: mesh.elements.iter().map(|element| element.size as u32).collect(),
+    }
+}
+
+/// For every element the broken share of the reference bonds of its sites.
+fn damage(mesh: &Mesh, broken: &[[i32; 3]]) -> Vec<f64> {
+    let mut count = vec![0.0; mesh.elements.len()];
+    for &[column, row, direction] in broken {
+        let vector = triangular::NEAREST[direction as usize];
+        for site in [[column, row], [column + vector[0], row + vector[1]]] {
+            if let Some(owner) = mesh.owner_of(site) {
+                count[owner] += 1.0;
+            }
+        }
+    }
+    count.iter().zip(&mesh.elements).map(|(broken, element)| broken / bonds_of(element)).collect()
+}
+
+/// Nearest-neighbour bonds that touch the sites of an element: six a site, those inside counted once.
+fn bonds_of(element: &Element) -> f64 {
+    let inside = 3 * element.size * (element.size - 1) / 2;
+    6.0 * element.site_count() as f64 - f64::from(inside)
+}

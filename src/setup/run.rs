@@ -1,0 +1,116 @@
+//! One case, from its checkpoint or from the start, into its folder.
+
+use std::path::Path;
+use std::sync::atomic::AtomicBool;
+
+use super::recorder::{Recorder, field_mesh};
+use super::{SetupError, solver};
+use crate::plan::CaseId;
+use crate::record::{self, CHECKPOINT_FILE, RecordError};
+use crate::solver::{Cost, Ending, Progress, RunError, Solver, SolverError};
+use crate::study::case::Case;
+
+/// How a run ended and what it cost.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finished {
+    pub ending: Ending,
+    pub steps: u64,
+    /// Time step at the end and its stability limit, ps.
+    pub time_step: f64,
+    pub stability_limit: f64,
+    /// Largest energy imbalance over the largest work; `None` before any work was done.
+    pub energy_error: Option<f64>,
+    /// Of this part of the run.
+    pub cost: Cost,
+}
+
+/// Why a case was not computed.
+#[derive(Debug, thiserror::Error)]
+pub enum RunCaseError {
+    #[error(transparent)]
+    Setup(#[from] SetupError),
+    #[error("{0}\nEverything up to here is kept in {1}.")]
+    Physics(SolverError, String),
+    #[error(transparent)]
+    Record(#[from] RecordError),
+    #[error("cannot start {threads} threads: {why}; ask for fewer with --threads")]
+    Threads { threads: u32, why: String },
+}
+
+/// Computes a case into its folder and publishes the series and the fields there. Goes on from the folder's
+/// checkpoint if there is one; a damaged one is told through `warn`, and the run starts afresh.
+pub fn run_case(
+    case: &Case,
+    into: &Path,
+    threads: u32,
+    stop: &AtomicBool,
+    tell: &mut (dyn FnMut(&Progress) + Send),
+    warn: &mut (dyn FnMut(&str) + Send),
+) -> Result<Finished, RunCaseError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build();
+    let pool = pool.map_err(|error| RunCaseError::Threads { threads, why: error.to_string() })?;
+    pool.install(|| compute(case, into, stop, tell, warn))
+}
+
+fn compute(
+    case: &Case,
+    into: &Path,
+    stop: &AtomicBool,
+    tell: &mut (dyn FnMut(&Progress) + Send),
+    warn: &mut (dyn FnMut(&str) + Send),
+) -> Result<Finished, RunCaseError> {
+    let id = CaseId::of(case).to_string();
+    let mut solver = solver(case)?;
+    resume(&mut solver, into, &id, warn)?;
+    let mut recorder = Recorder::new(into, id, &solver, tell);
+    let ended = solver.run(&mut recorder, stop);
+    let ending = match ended {
+        Ok(ending) => ending,
+        Err(RunError::Output(error)) => return Err(error.into()),
+        Err(RunError::Physics(error)) => {
+            recorder.flush()?;
+            publish(&solver, into)?;
+            return Err(RunCaseError::Physics(error, into.display().to_string()));
+        }
+    };
+    if ending != Ending::Interrupted {
+        publish(&solver, into)?;
+    }
+    let [time_step, stability_limit] = solver.time_step();
+    Ok(Finished {
+        ending,
+        steps: solver.step_count(),
+        time_step,
+        stability_limit,
+        energy_error: solver.ledger().relative_error(),
+        cost: solver.cost(),
+    })
+}
+
+/// Goes back to the folder's checkpoint, and removes what was recorded after it.
+fn resume(
+    solver: &mut Solver,
+    into: &Path,
+    id: &str,
+    warn: &mut (dyn FnMut(&str) + Send),
+) -> Result<(), RunCaseError> {
+    let path = into.join(CHECKPOINT_FILE);
+    match record::checkpoint::read(&path, id) {
+        Ok(checkpoint) => {
+            record::cut_back(into, Some(checkpoint.step))?;
+            solver.restore(&checkpoint).map_err(SetupError::from)?;
+        }
+        Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
+        Err(error @ RecordError::Damaged { .. }) => {
+            warn(&format!("{error}; starting afresh"));
+            record::cut_back(into, None)?;
+        }
+        Err(error) => return Err(error.into()),
+    }
+    Ok(())
+}
+
+fn publish(solver: &Solver, into: &Path) -> Result<(), RecordError> {
+    record::publish_series(into, solver.setting())?;
+    record::publish_fields(into, &field_mesh(solver))
+}

@@ -1,0 +1,65 @@
+//! Where the time goes.
+
+use std::time::Instant;
+
+/// What a run spends its time on.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Phase {
+    /// Mesh, neighbours and first forces; the source's INP and GETMAP.
+    SetUp,
+    /// Neighbour search; the source's ELIST.
+    Neighbours,
+    /// Forces; the source's FORCE and SOLV.
+    Forces,
+    /// Central differences; the source's CENTRAL.
+    Motion,
+    /// Bound of the highest frequency.
+    Stability,
+    /// Probes, snapshots and checkpoints; the source's OUT.
+    Output,
+}
+
+impl Phase {
+    pub const ALL: [Self; 6] =
+        [Self::SetUp, Self::Neighbours, Self::Forces, Self::Motion, Self::Stability, Self::Output];
+
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::SetUp => "set-up",
+            Self::Neighbours => "neighbours",
+            Self::Forces => "forces",
+            Self::Motion => "motion",
+            Self::Stability => "stability",
+            Self::Output => "output",
+        }
+    }
+}
+
+/// Calls and seconds of every phase.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cost {
+    spent: [(u64, f64); Phase::ALL.len()],
+}
+
+impl Cost {
+    /// Books the time since `start`, which becomes now.
+    pub fn book(&mut self, phase: Phase, start: &mut Instant) {
+        let now = Instant::now();
+        self.add(phase, 1, (now - *start).as_secs_f64());
+        *start = now;
+    }
+
+    pub fn add(&mut self, phase: Phase, calls: u64, seconds: f64) {
+        let (sum_calls, sum_seconds) = &mut self.spent[phase as usize];
+        *sum_calls += calls;
+        *sum_seconds += seconds;
+    }
+
+    /// Phase, calls, seconds.
+    pub fn rows(&self) -> impl Iterator<Item = (Phase, u64, f64)> + '_ {
+        Phase::ALL.into_iter().map(|phase| {
+            let (calls, seconds) = self.spent[phase as usize];
+            (phase, calls, seconds)
+        })
+    }
+}

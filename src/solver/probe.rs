@@ -1,0 +1,96 @@
+//! What a probe reads off a moment.
+
+use crate::analysis::series::{BondEvent, Setting};
+use crate::forces::Measure;
+use crate::lattice::triangular;
+use crate::mesh::Mesh;
+
+/// Average virial stress xx, yy, xy between the grips, eV/nm^3, over the reference area.
+pub fn average_stress(mesh: &Mesh, measure: &Measure, setting: &Setting) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    let mut sites = 0;
+    for (element, virial) in mesh.elements.iter().zip(&measure.virial) {
+        if mesh.grip_of(element) == 0 {
+            sites += element.site_count();
+            (0..3).for_each(|k| sum[k] += virial[k]);
+        }
+    }
+    sum.map(|virial| virial / (sites as f64 * site_volume(setting)))
+}
+
+/// Reference area of a site times the thickness, nm^3.
+pub fn site_volume(setting: &Setting) -> f64 {
+    triangular::SITE_AREA * setting.spacing * setting.spacing * setting.thickness
+}
+
+/// Atoms an edge of the elements along the crack plane ahead of the notch; without a crack at mid-height.
+pub fn element_at_crack(mesh: &Mesh) -> u32 {
+    let row = mesh.sites.middle_row();
+    let from = mesh.cut.map_or(f64::NEG_INFINITY, |cut| cut.to);
+    let ahead = mesh.sites.columns(row).filter(|&column| triangular::position([column, row])[0] >= from);
+    let sizes = ahead.filter_map(|column| mesh.owner_of([column, row])).map(|owner| mesh.elements[owner].size);
+    sizes.max().unwrap_or(1) as u32
+}
+
+/// The bonds in which two ascending lists of broken bonds differ, by rising place.
+pub fn bond_events(before: &[[i32; 3]], now: &[[i32; 3]], probe: u32) -> Vec<BondEvent> {
+    let event = |[column, row, direction]: [i32; 3], broken: bool| BondEvent {
+        probe,
+        column,
+        row,
+        direction: direction as u8,
+        broken,
+    };
+    let key = |bond: &[i32; 3]| [bond[1], bond[0], bond[2]];
+    let closed = before.iter().filter(|bond| now.binary_search_by_key(&key(bond), key).is_err());
+    let opened = now.iter().filter(|bond| before.binary_search_by_key(&key(bond), key).is_err());
+    closed.map(|&bond| event(bond, false)).chain(opened.map(|&bond| event(bond, true))).collect()
+}
+
+/// Bins along the crack plane and the elements that fall into each.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ProfileLine {
+    centres: Vec<f64>,
+    /// Bin, element and number of its sites.
+    members: Vec<(u32, u32, u32)>,
+}
+
+impl ProfileLine {
+    /// Bins as wide as a triangle of the site set and its neighbour, of the elements next to the crack plane: one
+    /// element row on either side, and two rows of atoms.
+    pub fn new(mesh: &Mesh, setting: &Setting) -> Self {
+        let width = f64::from(mesh.sites.layout.block + 1) * setting.spacing;
+        let bins = (setting.length / width).round().max(1.0) as usize;
+        let middle = mesh.sites.middle_row();
+        let reach = (setting.element_at_crack as i32).max(2);
+        let mut members = Vec::new();
+        for (number, element) in mesh.elements.iter().enumerate() {
+            let rows = element.lowest_row()..element.lowest_row() + element.size;
+            if rows.start < middle - reach || rows.end > middle + reach {
+                continue;
+            }
+            let corners = element.corners();
+            let x: f64 = corners.iter().map(|&corner| mesh.reference(corner)[0]).sum::<f64>() / corners.len() as f64;
+            let bin = ((x - setting.left_x) / width) as usize;
+            members.push((bin.min(bins - 1) as u32, number as u32, element.site_count() as u32));
+        }
+        let centres = (0..bins).map(|bin| (bin as f64 + 0.5) * width).collect();
+        Self { centres, members }
+    }
+
+    pub fn centres(&self) -> &[f64] {
+        &self.centres
+    }
+
+    /// Average virial stress in every bin, eV/nm^3.
+    pub fn stress(&self, measure: &Measure, setting: &Setting) -> Vec<[f64; 3]> {
+        let mut sums = vec![([0.0; 3], 0.0); self.centres.len()];
+        for &(bin, element, sites) in &self.members {
+            let (sum, count) = &mut sums[bin as usize];
+            *count += f64::from(sites);
+            (0..3).for_each(|k| sum[k] += measure.virial[element as usize][k]);
+        }
+        let volume = site_volume(setting);
+        sums.into_iter().map(|(sum, count)| sum.map(|virial| virial / (count * volume))).collect()
+    }
+}

@@ -1,0 +1,104 @@
+//! When a run has reached its end.
+
+use crate::analysis::initiation;
+use crate::analysis::series::Setting;
+
+/// A run stops at whichever of these comes first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Until {
+    /// Nominal strain.
+    pub strain: Option<f64>,
+    /// ps
+    pub time: Option<f64>,
+    /// Distance of the foremost tip from the left edge, nm.
+    pub crack_length: Option<f64>,
+    /// The crack has set out and then stood still for this long, ps.
+    pub arrest: Option<f64>,
+}
+
+/// Why a run ended.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Ending {
+    Strain(f64),
+    Time(f64),
+    CrackLength(f64),
+    Arrest(f64),
+    /// Asked to stop; a checkpoint is there.
+    Interrupted,
+}
+
+impl std::fmt::Display for Ending {
+    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        match self {
+            Self::Strain(strain) => write!(f, "strain {:.4} % reached", 100.0 * strain),
+            Self::Time(time) => write!(f, "time {time:.4} ps reached"),
+            Self::CrackLength(tip) => write!(f, "crack length {tip:.3} nm reached"),
+            Self::Arrest(time) => write!(f, "crack stood still for {time:.3} ps"),
+            Self::Interrupted => write!(f, "interrupted"),
+        }
+    }
+}
+
+impl Until {
+    /// Steps in all if neither the crack nor a change of the time step ends the run otherwise.
+    pub fn steps(&self, step: u64, time: f64, time_step: f64, rate: f64) -> u64 {
+        let end = self.strain.map(|strain| strain / rate).unwrap_or(f64::INFINITY).min(self.time.unwrap_or(f64::INFINITY));
+        step + ((end - time) / time_step).round().max(0.0) as u64
+    }
+}
+
+/// Follows the foremost tip from probe to probe.
+#[derive(Clone, Debug)]
+pub struct Watch {
+    /// Advance beyond the notch that means that the crack has set out, nm.
+    threshold: f64,
+    notch: f64,
+    farthest: f64,
+    last_advance: f64,
+}
+
+impl Watch {
+    pub fn new(setting: &Setting) -> Self {
+        let notch = setting.crack_length;
+        Self { threshold: initiation::threshold(setting), notch, farthest: notch, last_advance: 0.0 }
+    }
+
+    pub fn follow(&mut self, tip: f64, time: f64) {
+        if tip > self.farthest {
+            self.farthest = tip;
+            self.last_advance = time;
+        }
+    }
+
+    pub fn farthest_tip(&self) -> f64 {
+        self.farthest
+    }
+
+    /// ps
+    pub fn last_advance(&self) -> f64 {
+        self.last_advance
+    }
+
+    pub fn restore(&mut self, last_advance: f64, farthest: f64) {
+        self.last_advance = last_advance;
+        self.farthest = farthest;
+    }
+
+    /// The first reason to stop at this moment; times and strains count within half a step.
+    pub fn ending(&self, until: &Until, time: f64, strain: f64, time_step: f64) -> Option<Ending> {
+        let soon = time + 0.5 * time_step;
+        let strain_soon = if time > 0.0 { strain * (soon / time) } else { 0.0 };
+        let set_out = self.farthest > self.notch + self.threshold;
+        if until.strain.is_some_and(|end| strain_soon >= end) {
+            return Some(Ending::Strain(strain));
+        }
+        if until.time.is_some_and(|end| soon >= end) {
+            return Some(Ending::Time(time));
+        }
+        if until.crack_length.is_some_and(|end| self.farthest >= end) {
+            return Some(Ending::CrackLength(self.farthest));
+        }
+        let still = time - self.last_advance;
+        until.arrest.filter(|&end| set_out && still >= end).map(|_| Ending::Arrest(still))
+    }
+}

@@ -1,0 +1,49 @@
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// What can go wrong between the runs and the disk.
+#[derive(Debug, thiserror::Error)]
+pub enum StoreError {
+    #[error("cannot write {}: {source}; {}", path.display(), advice(source))]
+    Write { path: PathBuf, source: io::Error },
+    #[error("cannot read {}: {source}; make it readable, or choose another folder with --results DIR", path.display())]
+    Read { path: PathBuf, source: io::Error },
+    #[error(
+        "{} says that its results have format {found}, and this version of cgaft reads format {known}; \
+         use the version that wrote them, or choose another folder with --results DIR",
+        path.display()
+    )]
+    Format { path: PathBuf, found: String, known: u32 },
+}
+
+impl StoreError {
+    pub(super) fn write(path: &Path) -> impl FnOnce(io::Error) -> StoreError + '_ {
+        move |source| StoreError::Write {
+            path: path.to_owned(),
+            source,
+        }
+    }
+
+    pub(super) fn read(path: &Path) -> impl FnOnce(io::Error) -> StoreError + '_ {
+        move |source| StoreError::Read {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+fn advice(error: &io::Error) -> &'static str {
+    match error.kind() {
+        io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
+            "make the folder writable, or choose another one with --results DIR"
+        }
+        io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
+            "free some space (`cgaft study clean` removes what is no longer needed) and run again: \
+             what was published is safe, and interrupted cases go on from their last checkpoint"
+        }
+        io::ErrorKind::NotADirectory | io::ErrorKind::AlreadyExists => {
+            "a file is where a folder should be: move it away, or choose another folder with --results DIR"
+        }
+        _ => "check the disk, or choose another folder with --results DIR",
+    }
+}

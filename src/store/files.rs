@@ -1,0 +1,79 @@
+//! Writing that survives a crash: a file is either old or new, never half.
+
+use std::fs::{self, File, TryLockError};
+use std::io::Write;
+use std::path::Path;
+
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+
+use super::StoreError;
+
+/// End of the name of a file that is still being written.
+pub const ASIDE: &str = ".new";
+
+/// Writes `value` aside, flushes it to the disk and renames it into place.
+pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
+    let mut text = serde_json::to_vec_pretty(value).expect("these types always have a JSON form");
+    text.push(b'\n');
+    // Two processes may write the same file at once: each has its own aside, and the last one wins.
+    let aside = path.with_extension(format!("{}{ASIDE}", std::process::id()));
+    let write = || {
+        let mut file = File::create(&aside)?;
+        file.write_all(&text)?;
+        file.sync_all()?;
+        fs::rename(&aside, path)
+    };
+    write().map_err(StoreError::write(path))
+}
+
+/// The value in a JSON file; the error is told in words.
+pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
+    let name = path.file_name().unwrap_or_default().display();
+    let text = fs::read_to_string(path).map_err(|error| format!("{name} cannot be read ({error})"))?;
+    serde_json::from_str(&text).map_err(|error| format!("{name} is damaged ({error})"))
+}
+
+pub fn open_lock(path: &Path) -> Result<File, StoreError> {
+    File::options()
+        .create(true)
+        .append(true)
+        .open(path)
+        .map_err(StoreError::write(path))
+}
+
+/// The locked file, or `None` while another process holds it.
+pub fn try_lock(path: &Path) -> Result<Option<File>, StoreError> {
+    let file = open_lock(path)?;
+    match file.try_lock() {
+        Ok(()) => Ok(Some(file)),
+        Err(TryLockError::WouldBlock) => Ok(None),
+        Err(TryLockError::Error(error)) => Err(StoreError::write(path)(error)),
+    }
+}
+
+/// Whether another process holds the lock; leaves no trace.
+pub fn is_locked(path: &Path) -> bool {
+    let Ok(file) = File::open(path) else { return false };
+    matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
+}
+
+/// Flushes a file or the entries of a folder to the disk.
+pub fn sync(path: &Path) -> Result<(), StoreError> {
+    File::open(path)
+        .and_then(|file| file.sync_all())
+        .map_err(StoreError::write(path))
+}
+
+/// Removes a file or a folder with all that is in it; that it is not there is no error.
+pub fn remove(path: &Path) -> Result<(), StoreError> {
+    let removed = match fs::symlink_metadata(path) {
+        Ok(metadata) if metadata.is_dir() => fs::remove_dir_all(path),
+        Ok(_) => fs::remove_file(path),
+        Err(error) => Err(error),
+    };
+    match removed {
+        Err(error) if error.kind() != std::io::ErrorKind::NotFound => Err(StoreError::write(path)(error)),
+        _ => Ok(()),
+    }
+}

@@ -1,0 +1,127 @@
+//! The small JSON files that tell what became of a case.
+
+use std::collections::BTreeMap;
+
+use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
+
+/// Provenance of a published run: `manifest.json`, written last, never edited.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Manifest {
+    pub id: String,
+    /// Name of the case when it was run; another study may know the same run by another name.
+    pub case_name: String,
+    /// The resolved case with the keys and units of a study file.
+    pub case: serde_json::Value,
+    pub program: Program,
+    /// `None` where the machine does not tell its name.
+    pub host: Option<String>,
+    pub ranks: u32,
+    /// Threads a rank.
+    pub threads: u32,
+    /// Of the first attempt.
+    pub started: Timestamp,
+    pub ended: Timestamp,
+    /// How often the case was started or resumed until it was done.
+    pub attempts: u32,
+    /// Wall time of all attempts together, s.
+    pub wall_seconds: f64,
+    /// Always `done` here: other endings are never published.
+    pub exit_state: ExitState,
+    pub outcome: Outcome,
+    /// Size of every file of the run, bytes; a run that no longer matches is corrupt.
+    pub files: BTreeMap<String, u64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum ExitState {
+    Done,
+}
+
+/// What the solver tells at its end: `outcome.json`, moved into the manifest.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Why the run stopped, such as `strain 0.035 reached`.
+    pub end_reason: String,
+    pub steps: u64,
+    /// Time step used, and the largest stable one, ps.
+    pub time_step_ps: f64,
+    pub stability_limit_ps: f64,
+    /// Largest energy imbalance over the largest work; `None` where nothing has done work.
+    pub energy_error_relative: Option<f64>,
+    /// Where the time went.
+    pub cost: Vec<Phase>,
+}
+
+/// Time spent in one part of the computation.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Phase {
+    pub name: String,
+    pub calls: u64,
+    pub seconds: f64,
+}
+
+/// The program that computed a run.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct Program {
+    pub version: String,
+    /// `None` when it was not built inside a git repository.
+    pub commit: Option<String>,
+    pub features: Vec<String>,
+}
+
+impl Program {
+    /// This program.
+    pub fn current() -> Program {
+        Program {
+            version: env!("CARGO_PKG_VERSION").to_owned(),
+            commit: option_env!("CGAFT_COMMIT")
+                .filter(|text| !text.is_empty())
+                .map(str::to_owned),
+            features: env!("CGAFT_FEATURES").split_whitespace().map(str::to_owned).collect(),
+        }
+    }
+}
+
+/// How far an unpublished run is: `attempt.json`, replaced every few seconds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Attempt {
+    pub program: Program,
+    pub attempts: u32,
+    pub started: Timestamp,
+    /// Wall time of all attempts so far, s.
+    pub wall_seconds: f64,
+    /// `None` until the solver has told it.
+    pub reached: Option<Reached>,
+}
+
+/// Steps taken out of how many.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Reached {
+    pub step: u64,
+    pub of: u64,
+    pub percent: f64,
+}
+
+/// Why an unpublished run ended: `failure.json`, beside its log and all that it had written.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Failure {
+    /// `None` when a signal ended it.
+    pub exit_code: Option<i32>,
+    /// In words, such as `physics failed`.
+    pub meaning: String,
+    /// The end of its log.
+    pub log_tail: Vec<String>,
+    pub ended: Timestamp,
+    pub attempts: u32,
+    pub program: Program,
+}
+
+/// Name of this machine.
+pub fn host() -> Option<String> {
+    let name = std::fs::read_to_string("/proc/sys/kernel/hostname")
+        .ok()
+        .or_else(|| std::env::var("HOSTNAME").ok())?;
+    Some(name.trim().to_owned()).filter(|name| !name.is_empty())
+}

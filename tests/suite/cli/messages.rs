@@ -1,0 +1,190 @@
+//! What the program says, and with which exit code.
+
+use std::fs;
+use std::io::Read;
+use std::process::Stdio;
+
+use super::{STUDY, Workspace, of_cases, said};
+
+#[test]
+fn a_bad_study_is_refused_and_nothing_is_started() {
+    let place = Workspace::new();
+    place.write_study(&STUDY.replace("width: 35.4 nm", "widht: 35.4"));
+    for command in ["run", "check", "plan", "status", "report", "clean"] {
+        let refused = place.cgaft(&["study", command, "slab.yaml"]);
+        assert_eq!(refused.code, Some(2), "{command}");
+        assert!(
+            refused.stderr.contains("widht") && refused.stderr.contains("width"),
+            "{}",
+            refused.stderr
+        );
+    }
+    let json = place.cgaft(&["study", "run", "slab.yaml", "--json"]).json();
+    assert_eq!(json["error"]["exit_code"], 2);
+    assert!(json["error"]["mistakes"][0]["line"].is_u64(), "{json}");
+    assert!(!place.path("results").exists());
+}
+
+#[test]
+fn an_unknown_case_is_refused_with_the_nearest_name() {
+    let place = Workspace::new();
+    place.write_study(&STUDY.replace("  B:", "  branching:"));
+    let refused = place.cgaft(&["study", "run", "slab.yaml", "--only", "brnching"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(
+        refused.stderr.contains("Did you mean `branching`?"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[test]
+fn what_is_missing_on_the_machine_has_its_own_exit_code() {
+    let place = Workspace::new();
+    let lost = said(
+        place
+            .command(&["study", "run", "slab.yaml"])
+            .env("CGAFT_SOLVE", "nowhere"),
+    );
+    assert_eq!(lost.code, Some(3));
+    assert!(lost.stderr.contains("make install"), "{}", lost.stderr);
+    for arguments in [["--on", "slurm"], ["--ranks", "2"]] {
+        let refused = place.cgaft(&[&["study", "run", "slab.yaml"], &arguments[..]].concat());
+        assert_eq!(refused.code, Some(3));
+        assert!(refused.stderr.contains("not in this version"), "{}", refused.stderr);
+    }
+    assert!(!place.path("results").exists(), "nothing was started");
+}
+
+#[test]
+fn an_output_that_cannot_be_written_has_its_own_exit_code() {
+    let place = Workspace::new();
+    fs::write(place.path("results"), "in the way").unwrap();
+    let refused = place.cgaft(&["study", "run", "slab.yaml"]);
+    assert_eq!(refused.code, Some(5));
+    assert!(refused.stderr.contains("--results DIR"), "{}", refused.stderr);
+    let elsewhere = place
+        .cgaft(&["study", "run", "slab.yaml", "--results", "elsewhere", "--only", "A"])
+        .succeeded();
+    assert!(
+        elsewhere.stdout.contains("elsewhere/slab/report.html"),
+        "{}",
+        elsewhere.stdout
+    );
+}
+
+#[test]
+fn json_is_on_standard_output_and_words_are_not() {
+    let place = Workspace::new();
+    let run = place.cgaft(&["study", "run", "slab.yaml", "--json"]).succeeded();
+    let json = run.json();
+    assert_eq!(of_cases(&json, "case"), ["A", "B", "C"]);
+    assert_eq!(of_cases(&json, "state"), ["done"; 3]);
+    assert_eq!(of_cases(&json, "reason"), ["new"; 3]);
+    assert_eq!(json["report"], "results/slab/report.html");
+    assert!(run.stderr.contains("A: runs (new)"), "{}", run.stderr);
+}
+
+#[test]
+fn quiet_says_nothing_but_failures() {
+    let place = Workspace::new();
+    let run = said(
+        place
+            .command(&["study", "run", "slab.yaml", "--quiet"])
+            .env("FAKE_FAIL", "study: B"),
+    );
+    assert_eq!((run.code, run.stdout.as_str()), (Some(1), ""));
+    assert!(run.stderr.starts_with("B: failed:"), "{}", run.stderr);
+    let run = place.cgaft(&["study", "run", "slab.yaml", "--quiet"]).succeeded();
+    assert_eq!((run.stdout.as_str(), run.stderr.as_str()), ("", ""));
+}
+
+#[test]
+fn there_are_no_colours_and_bars_where_there_is_no_terminal() {
+    let place = Workspace::new();
+    place.write_study(&STUDY.replace("802 u", "802"));
+    let refused = place.cgaft(&["study", "run", "slab.yaml"]);
+    place.write_study(STUDY);
+    let run = place.cgaft(&["study", "run", "slab.yaml"]).succeeded();
+    for text in [refused.stderr, refused.stdout, run.stderr, run.stdout] {
+        assert!(!text.contains('\u{1b}') && !text.contains('\r'), "{text:?}");
+    }
+}
+
+#[test]
+fn check_tells_size_and_cost_and_computes_nothing() {
+    let place = Workspace::new();
+    let check = place.cgaft(&["study", "check", "slab.yaml"]).succeeded();
+    for column in ["nodes", "elements", "atoms", "steps", "time step", "memory", "about"] {
+        assert!(check.stdout.contains(column), "{}", check.stdout);
+    }
+    let json = place
+        .cgaft(&["study", "check", "slab.yaml", "--json"])
+        .succeeded()
+        .json();
+    assert_eq!(json["cases"].as_array().unwrap().len(), 3);
+    assert!(json["cases"][0]["nodes"].as_u64().unwrap() > 0);
+    assert!(!place.path("results").exists());
+}
+
+#[test]
+fn plan_shows_the_exact_command_of_each_case() {
+    let place = Workspace::new();
+    let plan = place.cgaft(&["study", "plan", "slab.yaml"]).succeeded();
+    assert_eq!(
+        plan.stdout.matches("fake-solver.sh results/slab/runs/").count(),
+        3,
+        "{}",
+        plan.stdout
+    );
+    assert!(plan.stdout.contains("A: run (new)"), "{}", plan.stdout);
+    assert!(!place.path("results").exists());
+}
+
+#[test]
+fn a_reader_that_leaves_early_is_no_panic() {
+    let place = Workspace::new();
+    let mut child = place.command(&["schema"]).spawn().unwrap();
+    drop(child.stdout.take());
+    let mut errors = String::new();
+    child.stderr.take().unwrap().read_to_string(&mut errors).unwrap();
+    assert_eq!((child.wait().unwrap().code(), errors.as_str()), (Some(0), ""));
+    let full = fs::File::options().write(true).open("/dev/full").unwrap();
+    let status = place
+        .command(&["schema"])
+        .stdout(full)
+        .stderr(Stdio::null())
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(5), "a full disk is an error");
+}
+
+#[test]
+fn new_writes_a_study_that_is_right_and_never_overwrites() {
+    let place = Workspace::new();
+    place.cgaft(&["new", "my-crack"]).succeeded();
+    place.cgaft(&["study", "check", "my-crack.yaml"]).succeeded();
+    let again = place.cgaft(&["new", "my-crack"]);
+    assert_eq!(again.code, Some(2));
+    assert!(again.stderr.contains("exists already"), "{}", again.stderr);
+    assert_eq!(place.cgaft(&["new", "../crack"]).code, Some(2));
+}
+
+#[test]
+fn the_small_commands_answer() {
+    let place = Workspace::new();
+    let schema = place.cgaft(&["schema"]).succeeded().json();
+    assert!(schema["$schema"].as_str().unwrap().contains("draft-07"));
+    assert!(
+        place
+            .cgaft(&["completions", "bash"])
+            .succeeded()
+            .stdout
+            .contains("_cgaft")
+    );
+    let doctor = place.cgaft(&["doctor"]).succeeded();
+    for line in ["cgaft-solve", "cores", "memory", "HDF5", "mpirun", "Slurm", "python"] {
+        assert!(doctor.stdout.contains(line), "{}", doctor.stdout);
+    }
+    assert_eq!(place.cgaft(&["study", "rnu", "slab.yaml"]).code, Some(2));
+}

@@ -1,0 +1,39 @@
+#!/bin/sh
+# Stands in for cgaft-solve: takes its arguments, speaks its progress, leaves its files, computes nothing.
+# A case whose file holds `fake: fail` (or the text in FAKE_FAIL) fails; `fake: slow` (FAKE_SLOW) waits to be stopped;
+# `fake: pause` (FAKE_PAUSE) takes a moment; `fake: empty` leaves no result.
+case_file=$1
+shift
+while [ $# -gt 0 ]; do
+    case $1 in
+    --into) into=$2; shift 2 ;;
+    --threads) threads=$2; shift 2 ;;
+    *) shift ;;
+    esac
+done
+holds() { grep -qF -- "$1" "$case_file"; }
+
+echo "$(basename "$into") threads=$threads" >>"$into/../../starts.txt"
+echo "a word that is no progress"
+echo '{"step": 40, "of": 100, "time_ps": 0.5, "strain": 0.004, "tip_nm": 12.5, "percent": 40}'
+if holds "${FAKE_FAIL:-fake: fail}"; then
+    i=1
+    while [ $i -le 30 ]; do
+        echo "log line $i" >&2
+        i=$((i + 1))
+    done
+    exit 4
+fi
+if holds "${FAKE_SLOW:-fake: slow}"; then
+    [ -e "$into/checkpoint.h5" ] && echo "resumed" >&2
+    cat >/dev/null
+    echo "checkpoint" >"$into/checkpoint.h5"
+    exit 130
+fi
+holds "${FAKE_PAUSE:-fake: pause}" && sleep 0.5
+holds "fake: empty" && exit 0
+echo "series" >"$into/series.h5"
+cat >"$into/outcome.json" <<'END'
+{"end_reason": "strain 0.01 reached", "steps": 100, "time_step_ps": 0.0012, "stability_limit_ps": 0.0015,
+ "energy_error_relative": 1e-6, "cost": [{"name": "forces", "calls": 100, "seconds": 0.1}]}
+END
