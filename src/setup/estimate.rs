@@ -113,7 +113,10 @@ fn leftover_share(mesh: &Mesh, plan: &Plan) -> f64 {
         .chain([i32::from(plan.element)])
         .collect();
     let leftover = mesh.elements.iter().filter(|element| !wanted.contains(&element.size));
-    leftover.map(|element| element.site_count()).sum::<usize>() as f64 / mesh.sites.len() as f64
+    leftover
+        .map(super::super::mesh::element::Element::site_count)
+        .sum::<usize>() as f64
+        / mesh.sites.len() as f64
 }
 
 /// Bytes that a solver of this mesh holds: nodes, sites, triangles with their interfaces, atoms with their partners.
