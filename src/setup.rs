@@ -1,5 +1,6 @@
 //! A resolved case becomes a ready solver, and a run its folder.
 
+mod census;
 mod estimate;
 mod recorder;
 mod run;
