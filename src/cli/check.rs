@@ -34,10 +34,10 @@ pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
         rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));
         let total: f64 = estimates.iter().map(|estimate| estimate.seconds).sum();
         format!(
-            "{}\n{}: no mistakes; {} cases, about {} on one core\n",
+            "{}\n{}: no mistakes; {}, about {} on one core\n",
             format::table(&rows),
             plan.study,
-            plan.cases.len(),
+            format::count(plan.cases.len(), "case"),
             format::duration(total)
         )
     })?;

@@ -8,7 +8,7 @@ use super::estimate::estimates;
 use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
-use super::{CliError, plan, report};
+use super::{CliError, format, plan, report};
 use crate::executor::share::{Share, share};
 use crate::executor::{self, Ending, Job, Settings, Stop, exit, launch};
 use crate::plan as planning;
@@ -27,13 +27,13 @@ pub struct Arguments {
     /// Cases at once [default: what ends first without more threads than cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
-    /// MPI ranks a case
+    /// MPI ranks a case; more than 1 is not in this version
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub ranks: Option<u32>,
     /// Threads a case [default: the cores of this machine, shared between the jobs]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub threads: Option<u32>,
-    /// Where the cases are computed
+    /// Where the cases are computed; only local in this version
     #[arg(long, value_enum, default_value = "local")]
     pub on: On,
     /// Tell what would run and why, and change nothing
@@ -161,15 +161,14 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
 
 /// `2 cases to run, 2 at once with 1 thread each`
 pub fn summary(cases: usize, share: Share) -> String {
-    let count = |number: usize, word: &str| format!("{number} {word}{}", if number == 1 { "" } else { "s" });
     if cases == 0 {
         return "nothing to run".to_owned();
     }
     let at_once = share.jobs.min(cases);
     format!(
         "{} to run, {at_once} at once with {} each",
-        count(cases, "case"),
-        count(share.threads as usize, "thread")
+        format::count(cases, "case"),
+        format::count(share.threads as usize, "thread")
     )
 }
 

@@ -7,6 +7,7 @@ use clap::Args;
 use super::CliError;
 use crate::executor::queue::starts_over;
 use crate::plan::{self, Plan, PlannedCase};
+use crate::record::CHECKPOINT_FILE;
 use crate::store::{Attempt, Reached, State, Store};
 use crate::study;
 
@@ -100,10 +101,11 @@ fn entry(store: &Store, planned: &PlannedCase) -> Entry {
 }
 
 fn reason(store: &Store, planned: &PlannedCase, id: &str, state: &State) -> String {
-    let over = if starts_over(state) {
-        "; starts over"
-    } else {
-        "; goes on from its last checkpoint"
+    let checkpoint = store.partial_folder(id).join(CHECKPOINT_FILE);
+    let over = match (starts_over(state), checkpoint.exists()) {
+        (true, _) => "; starts over",
+        (false, true) => "; goes on from its last checkpoint",
+        (false, false) => "; no checkpoint yet, starts over",
     };
     match state {
         State::Done(_) => "unchanged".to_owned(),
@@ -117,7 +119,7 @@ fn reason(store: &Store, planned: &PlannedCase, id: &str, state: &State) -> Stri
 
 fn at_step(attempt: &Option<Attempt>) -> String {
     match attempt.as_ref().and_then(|attempt| attempt.reached) {
-        Some(Reached { step, of, percent }) => format!(" at step {step} of {of} ({percent:.0} %)"),
+        Some(Reached { step, of, percent }) => format!(" after step {step} of {of} ({percent:.0} %)"),
         None => String::new(),
     }
 }

@@ -1,6 +1,7 @@
 //! What a case will cost, before anything is computed.
 
 use super::census::Census;
+use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching};
 use crate::material::Material;
 use crate::mesh::sites::Layout;
@@ -34,6 +35,9 @@ const SECONDS_AN_ATOM: f64 = 6e-8;
 const SECONDS_A_TRIANGLE: f64 = 2e-7;
 const SECONDS_AN_EDGE_SITE: f64 = 1.5e-8;
 
+/// More steps than this are a slip in a rate, a mass or an end: they would take years.
+const MOST_STEPS: u64 = 1_000_000_000_000;
+
 /// The estimate of a case; an error is physical nonsense that only the mesh or the material reveals.
 pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
     let material = material(case)?;
@@ -49,9 +53,15 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
         ..Until::default()
     };
     let steps = until.steps(0, 0.0, time_step, rate);
+    if !(1..MOST_STEPS).contains(&steps) {
+        return Err(SetupError::Endless { steps, time_step });
+    }
+    // The constants are those of nearest neighbours, three bonds a site.
+    let reach = material.interaction.cutoff() / material.spacing;
+    let bonds = triangular::half_vectors_within(reach).len() as f64 / 3.0;
     let of_element = |size: i32| match size {
-        1 => SECONDS_AN_ATOM,
-        _ => SECONDS_A_TRIANGLE + SECONDS_AN_EDGE_SITE * 3.0 * f64::from(size),
+        1 => SECONDS_AN_ATOM * bonds,
+        _ => SECONDS_A_TRIANGLE + SECONDS_AN_EDGE_SITE * 3.0 * f64::from(size) * bonds,
     };
     Ok(Estimate {
         nodes: census.node_count(),
