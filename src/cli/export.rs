@@ -45,8 +45,15 @@ pub fn lammps(arguments: &Arguments) -> Result<u8, CliError> {
 
     let [script_file, data_file] = ["in", "data"].map(|kind| format!("{kind}.{}", planned.name));
     let [script_path, data_path] = [&script_file, &data_file].map(|file| arguments.into.join(file));
-    let script = model.script(&head(&plan, planned, &script_file), &planned.name, &motion(case, &solver));
-    let title = format!("LAMMPS data of case `{}` of study `{}`, for {script_file}", planned.name, plan.study);
+    let script = model.script(
+        &head(&plan, planned, &script_file),
+        &planned.name,
+        &motion(case, &solver),
+    );
+    let title = format!(
+        "LAMMPS data of case `{}` of study `{}`, for {script_file}",
+        planned.name, plan.study
+    );
     fs::create_dir_all(&arguments.into).map_err(|source| CliError::Output {
         what: arguments.into.display().to_string(),
         source,
@@ -84,7 +91,9 @@ fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<(
     written.map_err(|source| {
         let what = path.display().to_string();
         if source.kind() == io::ErrorKind::AlreadyExists {
-            CliError::Input(format!("{what} exists already; choose another folder with --into, or remove it first"))
+            CliError::Input(format!(
+                "{what} exists already; choose another folder with --into, or remove it first"
+            ))
         } else {
             CliError::Output { what, source }
         }
@@ -95,7 +104,10 @@ fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<(
 fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
     let until = &planned.case.run.until;
     let mut head = vec![
-        format!("LAMMPS input of an all-atom case of a study, written by cgaft {}", env!("CARGO_PKG_VERSION")),
+        format!(
+            "LAMMPS input of an all-atom case of a study, written by cgaft {}",
+            env!("CARGO_PKG_VERSION")
+        ),
         String::new(),
         format!("study   {} ({})", plan.study, plan.file),
         format!("case    {} ({})", planned.name, planned.id),
@@ -103,11 +115,15 @@ fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
     ];
     if let case::TimeStep::Auto { .. } = planned.case.run.time_step {
         head.push(String::new());
-        head.push("The time step is the one cgaft starts with; cgaft shortens it should the specimen stiffen.".to_owned());
+        head.push(
+            "The time step is the one cgaft starts with; cgaft shortens it should the specimen stiffen.".to_owned(),
+        );
     }
     if until.crack_length.is_some() || until.arrest.is_some() {
         head.push(String::new());
-        head.push("The run ends at its strain or time: LAMMPS does not follow the crack, so it ends neither at a".to_owned());
+        head.push(
+            "The run ends at its strain or time: LAMMPS does not follow the crack, so it ends neither at a".to_owned(),
+        );
         head.push("crack length nor at an arrest, as the case asks cgaft to.".to_owned());
     }
     head

@@ -13,7 +13,12 @@ impl Model<'_> {
         for (plane, axis) in state.position.iter().zip(["x", "y"]) {
             let [low, high] = extent(plane);
             let margin = self.mesh.spacing;
-            writeln!(out, "{} {} {axis}lo {axis}hi", exact(low - margin), exact(high + margin))?;
+            writeln!(
+                out,
+                "{} {} {axis}lo {axis}hi",
+                exact(low - margin),
+                exact(high + margin)
+            )?;
         }
         writeln!(out, "-0.5 0.5 zlo zhi\n\nAtoms # atomic\n")?;
         let [x, y] = &state.position;
@@ -32,5 +37,7 @@ impl Model<'_> {
 fn extent(plane: &[f64]) -> [f64; 2] {
     plane
         .iter()
-        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| [low.min(x), high.max(x)])
+        .fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| {
+            [low.min(x), high.max(x)]
+        })
 }

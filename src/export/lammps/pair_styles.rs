@@ -59,7 +59,13 @@ impl PairStyles {
 /// The pair style of a shape, its coefficients, and those of the shape stretched to the lattice spacing.
 fn shape(shape: &PotentialShape, material: &Material) -> Result<(&'static str, String, String), ExportError> {
     let stretch = material.spacing / material.interaction.minimum();
-    let row = |numbers: &[f64]| numbers.iter().map(|&number| exact(number)).collect::<Vec<_>>().join(" ");
+    let row = |numbers: &[f64]| {
+        numbers
+            .iter()
+            .map(|&number| exact(number))
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
     match *shape {
         PotentialShape::LennardJones { epsilon, sigma } => {
             Ok(("lj/cut", row(&[epsilon, sigma]), row(&[epsilon, sigma * stretch])))

@@ -49,7 +49,11 @@ impl Model<'_> {
             return lines;
         }
         // A style that hybrid holds twice is called by its number.
-        let [first, second] = if bonded.name == severed.name { [" 1", " 2"] } else { ["", ""] };
+        let [first, second] = if bonded.name == severed.name {
+            [" 1", " 2"]
+        } else {
+            ["", ""]
+        };
         let shift = |style: &Style, number: &str| {
             let line = format!("pair_modify pair {}{number} shift yes", style.name);
             style.shifted.then_some(line)
@@ -72,7 +76,10 @@ impl Model<'_> {
     /// The whole script: settings, grips, output and the run. `head` tells what it is, a line each; the data file is
     /// `data.NAME`, and LAMMPS writes `dump.NAME`.
     pub fn script(&self, head: &[String], name: &str, motion: &Motion) -> String {
-        let mut text: String = head.iter().map(|line| format!("# {line}").trim_end().to_owned() + "\n").collect();
+        let mut text: String = head
+            .iter()
+            .map(|line| format!("# {line}").trim_end().to_owned() + "\n")
+            .collect();
         text += "#\n";
         for line in self.remarks() {
             text += &format!("# {line}\n");
@@ -85,28 +92,41 @@ impl Model<'_> {
 
     fn remarks(&self) -> Vec<String> {
         let mut remarks = vec![
-            "Lengths are in nm, energies in eV, times in ps, masses in eV ps^2/nm^2: `units lj` multiplies by no".to_owned(),
+            "Lengths are in nm, energies in eV, times in ps, masses in eV ps^2/nm^2: `units lj` multiplies by no"
+                .to_owned(),
             "conversion constants, so these are the very numbers of cgaft, and nothing here is reduced.".to_owned(),
             "Atoms are numbered row by row from the lower left.".to_owned(),
         ];
         if !self.types.severed.is_empty() {
-            remarks.push("Types tell which pairs the notch severs: 2 lies below it, 3 above, those from 4 on at its tip.".to_owned());
+            remarks.push(
+                "Types tell which pairs the notch severs: 2 lies below it, 3 above, those from 4 on at its tip."
+                    .to_owned(),
+            );
             remarks.push(format!(
                 "The severed pairs are those of cgaft, except that of pairs that stood more than {:.2} spacings apart in",
                 self.types.reach
             ));
-            remarks.push("the crystal only those are severed that stood straight below and above the notch.".to_owned());
+            remarks
+                .push("the crystal only those are severed that stood straight below and above the notch.".to_owned());
         }
         remarks
     }
 
     fn motion(&self, name: &str, motion: &Motion) -> String {
         let [first, last] = self.grip_atoms();
-        let (atoms, hold) = (self.mesh.sites.len(), match motion.grip {
-            Grip::Clamped => "0.0 0.0 0.0",
-            Grip::Sliding => "NULL 0.0 0.0",
-        });
-        let Motion { probe_every, snapshot_every, steps, .. } = motion;
+        let (atoms, hold) = (
+            self.mesh.sites.len(),
+            match motion.grip {
+                Grip::Clamped => "0.0 0.0 0.0",
+                Grip::Sliding => "NULL 0.0 0.0",
+            },
+        );
+        let Motion {
+            probe_every,
+            snapshot_every,
+            steps,
+            ..
+        } = motion;
         let (time_step, rate) = (exact(motion.time_step), exact(motion.rate));
         format!(
             "
