@@ -1,5 +1,6 @@
 //! A resolved case becomes a ready solver, and a run its folder.
 
+mod census;
 mod estimate;
 mod recorder;
 mod run;
@@ -39,6 +40,11 @@ pub enum SetupError {
         block: u32,
         spacing: f64,
     },
+    #[error(
+        "elements of {element} atoms an edge do not fit: either side of the crack plane has {rows} rows of atoms \
+         up to the grip; use {rows} or less"
+    )]
+    ElementTooLarge { element: u32, rows: i32 },
     #[error(
         "a mesh of {sites} sites needs about {needed:.1} GiB and this machine has {present:.1} GiB free; \
          make the specimen smaller, or use larger elements"
@@ -97,18 +103,26 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
             spacing,
         });
     }
-    let region = |region: &case::Region| Region {
-        element: region.element as u16,
-        shape: match region.shape {
+    let highest = (layout.rows - layout.rows / 2 - 1) * layout.block;
+    let element = |element: u32| match u16::try_from(element) {
+        Ok(fitting) if i32::from(fitting) <= highest => Ok(fitting),
+        _ => Err(SetupError::ElementTooLarge { element, rows: highest }),
+    };
+    let region = |region: &case::Region| -> Result<Region, SetupError> {
+        let shape = match region.shape {
             case::RegionShape::Band { half_width } => Shape::Band { half_width },
             case::RegionShape::Box { from, to } => Shape::Box { from, to },
             case::RegionShape::Disc { center, radius } => Shape::Disc { center, radius },
-        },
+        };
+        Ok(Region {
+            shape,
+            element: element(region.element)?,
+        })
     };
     Ok(Plan {
         layout,
-        element: case.resolution.element as u16,
-        regions: case.resolution.regions.iter().map(region).collect(),
+        element: element(case.resolution.element)?,
+        regions: case.resolution.regions.iter().map(region).collect::<Result<_, _>>()?,
         crack_length: case.crack.as_ref().map(
             |case::Crack {
                  edge: case::Edge::Left,

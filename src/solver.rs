@@ -95,18 +95,23 @@ pub enum SolverError {
     )]
     StepTooLong { given: f64, limit: f64 },
     #[error(
-        "step {step}, {time:.3} ps, strain {strain:.5}: {source}; \
-         try a smaller fraction of the stability limit or a lower strain rate"
+        "step {step}, {time:.3} ps, strain {strain:.5}: {source}, which was at x = {:.3} nm, y = {:.3} nm; \
+         try a smaller fraction of the stability limit or a lower strain rate",
+        place[0], place[1]
     )]
     BlowUp {
         step: u64,
         time: f64,
         strain: f64,
+        /// Where the element was before the loading: nm from the left edge, and from the crack plane.
+        place: [f64; 2],
         source: ForceError,
     },
     #[error(
         "step {step}, {time:.3} ps, strain {strain:.5}: energy went astray by {imbalance:.3e} eV, \
-         more than {limit:.0} % of the energy put in ({put_in:.3e} eV); try a smaller fraction of the stability limit"
+         more than {limit:.0} % of the energy put in ({put_in:.3e} eV), with the fastest node at x = {:.3} nm, \
+         y = {:.3} nm; try a smaller fraction of the stability limit",
+        fastest[0], fastest[1]
     )]
     EnergyAstray {
         step: u64,
@@ -115,6 +120,8 @@ pub enum SolverError {
         imbalance: f64,
         put_in: f64,
         limit: f64,
+        /// Where the fastest node was before the loading: nm from the left edge, and from the crack plane.
+        fastest: [f64; 2],
     },
     #[error("the run cannot start: {0}")]
     NoStart(ForceError),
@@ -244,12 +251,12 @@ impl Solver {
         let mut last_checkpoint = Instant::now();
         if self.step == 0 {
             self.observe(observer, false)?;
+        } else if let Some(ending) = self.ending() {
+            // Only the last checkpoint of a run is made where it ends, and everything was given before it.
+            return Ok(ending);
         }
         loop {
-            if let Some(ending) = self
-                .stop
-                .ending(&self.settings.until, self.time, self.strain(), self.time_step)
-            {
+            if let Some(ending) = self.ending() {
                 self.observe(observer, true)?;
                 self.save(observer)?;
                 return Ok(ending);
@@ -265,6 +272,11 @@ impl Solver {
             self.advance()?;
             self.observe(observer, false)?;
         }
+    }
+
+    fn ending(&self) -> Option<Ending> {
+        self.stop
+            .ending(&self.settings.until, self.time, self.strain(), self.time_step)
     }
 
     fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
@@ -319,7 +331,15 @@ impl Solver {
             step: self.step,
             time: self.time,
             strain: self.strain(),
+            place: self.reference_place(self.mesh().first_node(source.element())),
             source,
         }
+    }
+
+    /// Where a node was before the loading: nm from the left edge, and from the crack plane.
+    fn reference_place(&self, node: usize) -> [f64; 2] {
+        let mesh = self.mesh();
+        let [x, y] = mesh.node_positions();
+        [x[node] - self.setting.left_x, y[node] - mesh.middle_height()]
     }
 }

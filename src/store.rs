@@ -21,6 +21,7 @@ mod state;
 pub use claim::{Claim, FolderLock};
 pub use clean::Removed;
 pub use error::StoreError;
+pub use files::write;
 pub use manifest::{Attempt, ExitState, Failure, Manifest, Outcome, Phase, Program, Reached, host};
 pub use state::State;
 
@@ -31,6 +32,9 @@ use serde::{Deserialize, Serialize};
 
 /// Layout of the folder; goes up when an older program would misread it.
 const FORMAT: u32 = 1;
+
+/// The file that tells it.
+const MARK: &str = "store.json";
 
 /// The results of one study.
 #[derive(Clone, Debug)]
@@ -80,7 +84,11 @@ impl Store {
         ] {
             fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
         }
-        files::write_json(&self.mark(), &Format { format: FORMAT })
+        let mark = self.mark();
+        if mark.exists() {
+            return Ok(());
+        }
+        files::write_json(&mark, &Format { format: FORMAT })
     }
 
     /// `results/<study>`
@@ -115,6 +123,6 @@ impl Store {
     }
 
     fn mark(&self) -> PathBuf {
-        self.root.join("store.json")
+        self.root.join(MARK)
     }
 }

@@ -4,7 +4,7 @@ use std::thread;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::estimate::estimate;
+use super::estimate::estimates;
 use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
@@ -12,6 +12,7 @@ use super::{CliError, plan, report};
 use crate::executor::share::{Share, share};
 use crate::executor::{self, Ending, Job, Settings, Stop, exit, launch};
 use crate::plan as planning;
+use crate::setup::Estimate;
 use crate::store::State;
 
 #[derive(Args, Debug)]
@@ -122,24 +123,24 @@ pub struct Prepared {
 
 /// Every chosen case that is not done, once each.
 pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Result<Prepared, CliError> {
-    let mut jobs: Vec<Job> = Vec::new();
-    for &position in chosen {
-        let entry = &survey.entries[position];
+    let mut wanted: Vec<&Entry> = Vec::new();
+    for entry in chosen.iter().map(|&position| &survey.entries[position]) {
         let is_done = matches!(entry.state, State::Done(_)) && !arguments.fresh;
-        if is_done || jobs.iter().any(|job| job.id == entry.id) {
-            continue;
+        if !is_done && wanted.iter().all(|other| other.id != entry.id) {
+            wanted.push(entry);
         }
-        let planned = &entry.planned;
-        jobs.push(Job {
-            name: planned.name.clone(),
-            id: entry.id.clone(),
-            case_text: planning::write_case(planned),
-            case: planning::spelled(&planned.case),
-            seconds: estimate(planned)?.seconds,
-            threads: arguments.threads.or(planned.case.execution.threads),
-            fresh: arguments.fresh,
-        });
     }
+    let estimates = estimates(wanted.iter().map(|entry| &entry.planned))?;
+    let job = |(entry, estimate): (&Entry, &Estimate)| Job {
+        name: entry.planned.name.clone(),
+        id: entry.id.clone(),
+        case_text: planning::write_case(&entry.planned),
+        case: planning::spelled(&entry.planned.case),
+        seconds: estimate.seconds,
+        threads: arguments.threads.or(entry.planned.case.execution.threads),
+        fresh: arguments.fresh,
+    };
+    let jobs: Vec<Job> = wanted.into_iter().zip(&estimates).map(job).collect();
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let seconds: Vec<f64> = jobs.iter().map(|job| job.seconds).collect();
     let threads = jobs.iter().filter_map(|job| job.threads).max();

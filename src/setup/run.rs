@@ -24,6 +24,9 @@ pub struct Finished {
     pub cost: Cost,
 }
 
+/// More threads than this on every core bring a machine to a halt; it leaves room for tests of many threads.
+const MOST_THREADS_A_CORE: u32 = 32;
+
 /// Why a case was not computed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunCaseError {
@@ -38,7 +41,7 @@ pub enum RunCaseError {
 }
 
 /// Computes a case into its folder and publishes the series and the fields there. Goes on from the folder's
-/// checkpoint if there is one; a damaged one is told through `warn`, and the run starts afresh.
+/// checkpoint if there is one, and says so through `warn`; a damaged one too, and then the run starts afresh.
 pub fn run_case(
     case: &Case,
     into: &Path,
@@ -47,6 +50,11 @@ pub fn run_case(
     tell: &mut (dyn FnMut(&Progress) + Send),
     warn: &mut (dyn FnMut(&str) + Send),
 ) -> Result<Finished, RunCaseError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from) as u32;
+    if threads > MOST_THREADS_A_CORE * cores {
+        let why = format!("this machine has {cores} cores");
+        return Err(RunCaseError::Threads { threads, why });
+    }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build();
     let pool = pool.map_err(|error| RunCaseError::Threads {
         threads,
@@ -97,6 +105,10 @@ fn resume(solver: &mut Solver, into: &Path, id: &str, warn: &mut (dyn FnMut(&str
         Ok(checkpoint) => {
             record::cut_back(into, Some(checkpoint.step))?;
             solver.restore(&checkpoint).map_err(SetupError::from)?;
+            warn(&format!(
+                "going on from step {}, {:.3} ps",
+                checkpoint.step, checkpoint.time
+            ));
         }
         Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
         Err(error @ RecordError::Damaged { .. }) => {

@@ -58,8 +58,17 @@ impl Solver {
             strain: self.strain(),
             tip: self.tracker.as_ref().map(|_| self.stop.farthest_tip()),
         });
-        self.ledger.check(self.step, self.time, self.strain())?;
+        self.ledger
+            .check(self.step, self.time, self.strain(), || self.fastest_node())?;
         Ok(())
+    }
+
+    /// Where the fastest node was before the loading.
+    fn fastest_node(&self) -> [f64; 2] {
+        let [x, y] = &self.state.velocity;
+        let squared = |node: usize| x[node] * x[node] + y[node] * y[node];
+        let fastest = (0..self.state.nodes()).max_by(|&a, &b| squared(a).total_cmp(&squared(b)));
+        self.reference_place(fastest.unwrap_or_default())
     }
 
     fn probe_row(&mut self, measure: &Measure) -> Probe {

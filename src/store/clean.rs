@@ -3,7 +3,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::claim::SOLVER_LOCK;
-use super::{Store, StoreError, files};
+use super::{MARK, Store, StoreError, files};
 
 /// Something that was taken away, or left because somebody works on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -17,7 +17,8 @@ pub struct Removed {
 }
 
 impl Store {
-    /// Removes runs that were never published, published runs that are not in `current`, and what points at them.
+    /// Removes runs that were never published, published runs that are not in `current`, what points at them, and
+    /// what a killed process was just writing.
     pub fn clean(&self, current: &BTreeSet<String>, cases: &BTreeSet<String>) -> Result<Vec<Removed>, StoreError> {
         let mut removed = Vec::new();
         for name in entries(&self.root.join("runs"))? {
@@ -35,6 +36,9 @@ impl Store {
             if !cases.contains(&name) || !link.exists() {
                 files::remove(&link)?;
             }
+        }
+        if self.root.exists() {
+            files::remove_asides(&self.root, MARK)?;
         }
         Ok(removed)
     }

@@ -12,15 +12,20 @@ use super::StoreError;
 /// End of the name of a file that is still being written.
 pub const ASIDE: &str = ".new";
 
-/// Writes `value` aside, flushes it to the disk and renames it into place.
+/// Writes `value` as JSON, as [`write`] does.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
     let mut text = serde_json::to_vec_pretty(value).expect("these types always have a JSON form");
     text.push(b'\n');
+    write(path, &text)
+}
+
+/// Writes `bytes` aside, flushes them to the disk and renames them into place.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     // Two processes may write the same file at once: each has its own aside, and the last one wins.
     let aside = path.with_extension(format!("{}{ASIDE}", std::process::id()));
     let write = || {
         let mut file = File::create(&aside)?;
-        file.write_all(&text)?;
+        file.write_all(bytes)?;
         file.sync_all()?;
         fs::rename(&aside, path)
     };
@@ -63,6 +68,19 @@ pub fn sync(path: &Path) -> Result<(), StoreError> {
     File::open(path)
         .and_then(|file| file.sync_all())
         .map_err(StoreError::write(path))
+}
+
+/// Removes what a killed process was just writing in place of `name`.
+pub fn remove_asides(folder: &Path, name: &str) -> Result<(), StoreError> {
+    let stem = format!("{}.", name.split('.').next().unwrap_or(name));
+    let is_aside = |found: &str| found.starts_with(&stem) && found.ends_with(ASIDE);
+    for entry in fs::read_dir(folder).map_err(StoreError::read(folder))? {
+        let entry = entry.map_err(StoreError::read(folder))?;
+        if entry.file_name().to_str().is_some_and(is_aside) {
+            remove(&entry.path())?;
+        }
+    }
+    Ok(())
 }
 
 /// Removes a file or a folder with all that is in it; that it is not there is no error.
