@@ -109,18 +109,7 @@ fn refuse_what_is_not_here(arguments: &Arguments) -> Result<(), CliError> {
 pub fn chosen(survey: &Survey, only: &[String]) -> Result<Vec<usize>, CliError> {
     let names: Vec<&str> = survey.entries.iter().map(|entry| entry.planned.name.as_str()).collect();
     for wanted in only {
-        if !names.contains(&wanted.as_str()) {
-            let nearest = names
-                .iter()
-                .max_by(|a, b| strsim::jaro(a, wanted).total_cmp(&strsim::jaro(b, wanted)));
-            let nearest = nearest
-                .map(|name| format!(" Did you mean `{name}`?"))
-                .unwrap_or_default();
-            let (study, names) = (&survey.plan.study, names.join(", "));
-            return Err(CliError::Input(format!(
-                "study {study} has no case `{wanted}`.{nearest} It has: {names}"
-            )));
-        }
+        survey::named(&survey.plan, wanted)?;
     }
     let means = |name: &str| only.is_empty() || only.iter().any(|wanted| wanted == name);
     Ok((0..names.len()).filter(|&position| means(names[position])).collect())

@@ -60,6 +60,24 @@ pub fn read(file: &str) -> Result<Plan, CliError> {
     Ok(plan)
 }
 
+/// The case of this name.
+pub fn named<'a>(plan: &'a Plan, wanted: &str) -> Result<&'a PlannedCase, CliError> {
+    let named = plan.cases.iter().find(|case| case.name == wanted);
+    named.ok_or_else(|| {
+        let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
+        let nearest = names
+            .iter()
+            .max_by(|a, b| strsim::jaro(a, wanted).total_cmp(&strsim::jaro(b, wanted)));
+        let nearest = nearest
+            .map(|name| format!(" Did you mean `{name}`?"))
+            .unwrap_or_default();
+        let (study, names) = (&plan.study, names.join(", "));
+        CliError::Input(format!(
+            "study {study} has no case `{wanted}`.{nearest} It has: {names}"
+        ))
+    })
+}
+
 /// Reads and plans a study and looks at what there is of it. Changes nothing.
 pub fn survey(file: &str, results: &Path) -> Result<Survey, CliError> {
     let plan = read(file)?;
