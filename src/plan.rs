@@ -41,7 +41,7 @@ pub struct PlannedCase {
     /// Unique in its study and fit to be a file name: `B`, `B-element-10`.
     pub name: String,
     pub case: Case,
-    /// What the report is to show of it; no part of its identity.
+    /// The tables it was made for. All are always written; no part of its identity.
     pub tables: Vec<Table>,
     pub id: CaseId,
 }

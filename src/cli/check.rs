@@ -4,7 +4,7 @@ use serde_json::json;
 use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
-use super::{CliError, format};
+use super::{CliError, format, run};
 use crate::setup::Estimate;
 
 #[derive(Args, Debug)]
@@ -29,6 +29,7 @@ pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
         quiet: false,
         json: arguments.common.json,
     };
+    run::tell_what_is_not_read(&plan, terminal);
     terminal.result(&json, || {
         let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
         rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));

@@ -162,6 +162,7 @@ pub fn summary(cases: usize, share: Share) -> String {
 }
 
 fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: &Arguments, terminal: Terminal) {
+    tell_what_is_not_read(&survey.plan, terminal);
     for &position in chosen {
         let Entry {
             planned, state, reason, ..
@@ -270,5 +271,14 @@ impl Arguments {
             fresh: false,
             quiet: false,
         }
+    }
+}
+
+/// What a study may say already and this version does not act on.
+pub fn tell_what_is_not_read(plan: &planning::Plan, terminal: Terminal) {
+    for (quantity, file) in &plan.compare {
+        terminal.say(&format!(
+            "`compare`: {file} is not read in this version; set it beside the tables by hand for `{quantity}`"
+        ));
     }
 }

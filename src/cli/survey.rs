@@ -137,7 +137,7 @@ fn reason(store: &Store, planned: &PlannedCase, id: &str, state: &State) -> Stri
 
 fn at_step(attempt: &Option<Attempt>) -> String {
     match attempt.as_ref().and_then(|attempt| attempt.reached) {
-        Some(Reached { step, of, percent }) => format!(" after step {step} of {of} ({percent:.0} %)"),
+        Some(Reached { step, of, percent }) => format!(" at step {step} of {of} ({percent:.0} %)"),
         None => String::new(),
     }
 }

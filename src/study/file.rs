@@ -32,7 +32,7 @@ pub struct StudyFile {
     pub cases: Given<Named<CaseFile>>,
     /// Multiplies every case: a dotted path such as `resolution.element` and its values.
     pub sweep: Given<Sweep>,
-    /// Reference tables to compare with, by quantity.
+    /// Reference tables to compare with, by quantity; kept with the study, and not read in this version.
     pub compare: Given<Named<String>>,
     pub report: Given<Report>,
 }
@@ -56,7 +56,7 @@ pub struct CaseFile {
     pub loading: Given<Loading>,
     pub run: Given<Run>,
     pub probes: Given<Probes>,
-    /// Tables to show in the report, and how often to take a snapshot of the whole specimen.
+    /// What the study is about, and how often to take a snapshot of the whole specimen.
     pub observe: Given<Vec<Given<Observe>>>,
 }
 
