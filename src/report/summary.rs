@@ -206,6 +206,13 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "times less wall time", |case| {
             or_reference(case, times_faster(case, cases))
         }),
+        row(cases, "released at the cutoff (of the work)", |case| {
+            let last = case.result.series.probes.last().filter(|last| last.work > 0.0)?;
+            Some(format!(
+                "{} %",
+                significant(PERCENT * last.cutoff_release / last.work, 2)
+            ))
+        }),
         row(cases, "energy error (of the work)", |case| {
             Some(significant(case.result.manifest.energy_error?, 2))
         }),

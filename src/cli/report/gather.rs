@@ -151,8 +151,21 @@ fn flatten(value: &Value, path: &str, pairs: &mut Vec<(String, String)>) {
                 flatten(inner, &path, pairs);
             }
         }
-        Value::String(text) => pairs.push((path.to_owned(), text.clone())),
-        other => pairs.push((path.to_owned(), other.to_string())),
+        leaf => pairs.push((path.to_owned(), spelled_leaf(leaf))),
+    }
+}
+
+/// A value in words: "none", "band half-width 8.8 nm element 1".
+fn spelled_leaf(value: &Value) -> String {
+    match value {
+        Value::Array(values) if values.is_empty() => "none".to_owned(),
+        Value::Array(values) => values.iter().map(spelled_leaf).collect::<Vec<_>>().join("; "),
+        Value::Object(map) => {
+            let pairs = map.iter().map(|(key, inner)| format!("{key} {}", spelled_leaf(inner)));
+            pairs.collect::<Vec<_>>().join(" ")
+        }
+        Value::String(text) => text.clone(),
+        other => other.to_string(),
     }
 }
 
