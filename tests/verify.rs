@@ -1,0 +1,6 @@
+//! Physics against closed forms and published numbers; takes minutes: `cargo test --release --test verify`.
+
+mod verify {
+    mod gates;
+    mod table;
+}
