@@ -1,4 +1,4 @@
-//! Physics against closed forms and published numbers; takes minutes: `cargo test --release --test verify`.
+//! Physics against closed forms and published numbers. It takes minutes: `cargo test --release --test verify`.
 
 mod verify {
     mod gates;
