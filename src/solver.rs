@@ -106,7 +106,9 @@ pub enum SolverError {
     },
     #[error(
         "step {step}, {time:.3} ps, strain {strain:.5}: energy went astray by {imbalance:.3e} eV, \
-         more than {limit:.0} % of the energy put in ({put_in:.3e} eV); try a smaller fraction of the stability limit"
+         more than {limit:.0} % of the energy put in ({put_in:.3e} eV), with the fastest node at x = {:.3} nm, \
+         y = {:.3} nm; try a smaller fraction of the stability limit",
+        fastest[0], fastest[1]
     )]
     EnergyAstray {
         step: u64,
@@ -115,6 +117,8 @@ pub enum SolverError {
         imbalance: f64,
         put_in: f64,
         limit: f64,
+        /// Where the fastest node was before the loading: nm from the left edge, and from the crack plane.
+        fastest: [f64; 2],
     },
     #[error("the run cannot start: {0}")]
     NoStart(ForceError),
@@ -244,12 +248,12 @@ impl Solver {
         let mut last_checkpoint = Instant::now();
         if self.step == 0 {
             self.observe(observer, false)?;
+        } else if let Some(ending) = self.ending() {
+            // Only the last checkpoint of a run is made where it ends, and everything was given before it.
+            return Ok(ending);
         }
         loop {
-            if let Some(ending) = self
-                .stop
-                .ending(&self.settings.until, self.time, self.strain(), self.time_step)
-            {
+            if let Some(ending) = self.ending() {
                 self.observe(observer, true)?;
                 self.save(observer)?;
                 return Ok(ending);
@@ -265,6 +269,11 @@ impl Solver {
             self.advance()?;
             self.observe(observer, false)?;
         }
+    }
+
+    fn ending(&self) -> Option<Ending> {
+        self.stop
+            .ending(&self.settings.until, self.time, self.strain(), self.time_step)
     }
 
     fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {

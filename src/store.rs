@@ -21,6 +21,7 @@ mod state;
 pub use claim::{Claim, FolderLock};
 pub use clean::Removed;
 pub use error::StoreError;
+pub use files::write;
 pub use manifest::{Attempt, ExitState, Failure, Manifest, Outcome, Phase, Program, Reached, host};
 pub use state::State;
 
@@ -80,7 +81,11 @@ impl Store {
         ] {
             fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
         }
-        files::write_json(&self.mark(), &Format { format: FORMAT })
+        let mark = self.mark();
+        if mark.exists() {
+            return Ok(());
+        }
+        files::write_json(&mark, &Format { format: FORMAT })
     }
 
     /// `results/<study>`

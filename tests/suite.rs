@@ -3,6 +3,7 @@
 mod suite {
     mod analysis;
     mod cli;
+    mod end_to_end;
     mod executor;
     mod forces;
     mod record;

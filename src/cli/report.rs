@@ -47,13 +47,19 @@ pub fn bring_up_to_date(survey: &Survey) -> Result<PathBuf, CliError> {
 
 fn rebuild(survey: &Survey) -> Result<PathBuf, CliError> {
     let _lock = survey.store.lock_report()?;
+    // A kill while the report is built leaves no stamp that fits.
+    stamp(survey, "")?;
     let path = build(survey)?;
-    let stamp = stamp_path(survey);
-    fs::write(&stamp, fingerprint(survey)).map_err(|source| CliError::Output {
-        what: stamp.display().to_string(),
-        source,
-    })?;
+    stamp(survey, &fingerprint(survey))?;
     Ok(path)
+}
+
+fn stamp(survey: &Survey, fingerprint: &str) -> Result<(), CliError> {
+    let path = stamp_path(survey);
+    fs::write(&path, fingerprint).map_err(|source| CliError::Output {
+        what: path.display().to_string(),
+        source,
+    })
 }
 
 fn stamp_path(survey: &Survey) -> PathBuf {

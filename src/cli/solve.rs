@@ -17,7 +17,7 @@ use super::terminal::{self, warn};
 use crate::executor::{Progress, exit};
 use crate::setup::{self, RunCaseError};
 use crate::solver::{self, Ending};
-use crate::store::{FolderLock, Outcome, Phase, StoreError};
+use crate::store::{self, FolderLock, Outcome, Phase, StoreError};
 use crate::study::case::Case;
 use crate::study::{self, StudyError};
 
@@ -127,9 +127,9 @@ fn refuse_another_case(case: &Case, path: &Path, into: &Path) -> Result<(), Solv
             Err(SolveError::Input(other_case(into)))
         };
     }
-    std::fs::copy(path, &kept)
-        .map_err(|error| SolveError::Output(format!("cannot write {}: {error}", kept.display())))?;
-    Ok(())
+    let text =
+        std::fs::read(path).map_err(|error| SolveError::Input(format!("cannot read {}: {error}", path.display())))?;
+    Ok(store::write(&kept, &text)?)
 }
 
 fn other_case(into: &Path) -> String {

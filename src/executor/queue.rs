@@ -119,6 +119,8 @@ struct Work {
     process: Running,
     claim: Claim,
     threads: u32,
+    reached: Option<Reached>,
+    /// When the store was last told of it.
     noted: Instant,
 }
 
@@ -179,6 +181,7 @@ impl<'a> Queue<'a> {
             process,
             claim,
             threads,
+            reached: None,
             noted: Instant::now() - NOTE_EVERY,
         });
         Ok(())
@@ -188,13 +191,14 @@ impl<'a> Queue<'a> {
         let Some(work) = self.running.iter_mut().find(|work| work.job == job) else {
             return Ok(());
         };
+        work.reached = Some(Reached {
+            step: progress.step,
+            of: progress.of,
+            percent: progress.percent,
+        });
         if work.noted.elapsed() >= NOTE_EVERY {
             work.noted = Instant::now();
-            work.claim.note(Some(Reached {
-                step: progress.step,
-                of: progress.of,
-                percent: progress.percent,
-            }))?;
+            work.claim.note(work.reached)?;
         }
         self.watcher.progress(&self.jobs[job], progress);
         Ok(())
@@ -221,7 +225,7 @@ impl<'a> Queue<'a> {
         let job = &self.jobs[work.job];
         let interrupted = status.code() == Some(i32::from(exit::INTERRUPTED)) || (stopping && status.code().is_none());
         if interrupted {
-            return Ok(Ending::Interrupted(Some(work.claim.note(None)?.clone())));
+            return Ok(Ending::Interrupted(Some(work.claim.note(work.reached)?.clone())));
         }
         let outcome = work.claim.outcome().filter(|_| status.success());
         if let Some(outcome) = outcome {

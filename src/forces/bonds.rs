@@ -12,19 +12,22 @@ impl Forces {
     ///
     /// An intact interface keeps all its bonds, and what happens inside a triangle is deformation, not a crack.
     pub fn broken_bonds(&self, position: &Planes) -> Vec<[i32; 3]> {
+        let quiet: Vec<bool> = (0..self.mesh.triangles)
+            .map(|triangle| !self.meets_others(triangle))
+            .collect();
         let rows = (0..self.mesh.sites.rows()).into_par_iter();
-        rows.flat_map_iter(|row| self.broken_bonds_of_row(row, position))
+        rows.flat_map_iter(|row| self.broken_bonds_of_row(row, &quiet, position))
             .collect()
     }
 
-    fn broken_bonds_of_row(&self, row: i32, position: &Planes) -> Vec<[i32; 3]> {
+    fn broken_bonds_of_row(&self, row: i32, quiet: &[bool], position: &Planes) -> Vec<[i32; 3]> {
         let mesh = &self.mesh;
         let limit = self.material.breaking_length().powi(2);
         let mut broken = Vec::new();
         for column in mesh.sites.columns(row) {
             let site = [column, row];
             let element = mesh.owner_of(site).expect("the site is in the set");
-            if element < mesh.triangles && !self.meets_others(element) {
+            if element < mesh.triangles && quiet[element] {
                 continue;
             }
             for (direction, vector) in triangular::NEAREST.iter().enumerate() {

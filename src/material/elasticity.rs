@@ -75,9 +75,9 @@ fn rayleigh_speed(longitudinal: f64, transverse: f64) -> f64 {
     for _ in 0..200 {
         let middle = 0.5 * (low + high);
         if excess(middle) < 0.0 {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     0.5 * (low + high) * transverse

@@ -27,9 +27,9 @@ fn bisect(interaction: &Interaction, mut low: f64, mut high: f64) -> f64 {
             break;
         }
         if slope(interaction, middle) < 0.0 {
-            low = middle
+            low = middle;
         } else {
-            high = middle
+            high = middle;
         }
     }
     high

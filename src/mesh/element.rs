@@ -138,7 +138,7 @@ mod tests {
 
     #[test]
     fn shape_functions_interpolate_lattice_positions() {
-        // [Deng2011] Eq. (3-27) on Fig. 3-6: x_a = sum_i N_i(a) X_i reproduces any affine field.
+        // [Deng2011] Eq. (3-27) and [Deng2011] Fig. 3-6: x_a = sum_i N_i(a) X_i reproduces any affine field.
         let element = Element {
             size: 7,
             sign: -1,

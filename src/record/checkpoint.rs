@@ -34,6 +34,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         step,
         time,
         time_step,
+        stability_limit,
         position: [position_x, position_y],
         velocity: [velocity_x, velocity_y],
         open_interfaces,
@@ -76,6 +77,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
     for (name, unit, number) in [
         ("time", "ps", time),
         ("time_step", "ps", time_step),
+        ("stability_limit", "ps", stability_limit),
         ("work", "eV", work),
         ("peak_work", "eV", peak_work),
         ("peak_imbalance", "eV", peak_imbalance),
@@ -92,6 +94,7 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
         step: get_scalar(group, "step")?,
         time: get_scalar(group, "time")?,
         time_step: get_scalar(group, "time_step")?,
+        stability_limit: get_scalar(group, "stability_limit")?,
         position: [get(group, "position_x")?, get(group, "position_y")?],
         velocity: [get(group, "velocity_x")?, get(group, "velocity_y")?],
         open_interfaces: get(group, "open_interfaces")?,

@@ -182,7 +182,7 @@ impl Chart {
             match palette::DASHES[curve.style % palette::DASHES.len()] {
                 None => root.draw(&PathElement::new(ends, curve.stroke()))?,
                 Some((dash, pause)) => {
-                    root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?
+                    root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?;
                 }
             }
             root.draw(&curve.marker((x + line / 2, y)))?;

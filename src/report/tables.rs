@@ -69,7 +69,7 @@ impl Table {
         self.frame
             .get_column_names()
             .iter()
-            .map(|name| name.to_string())
+            .map(std::string::ToString::to_string)
             .collect()
     }
 

@@ -1,10 +1,11 @@
 //! What a case will cost, before anything is computed.
 
-use super::{SetupError, material, mesh_plan, time_step};
 use crate::loading::{Grip, Stretching};
 use crate::material::Material;
+use crate::mesh::element::Element;
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
+use crate::setup::{SetupError, material, mesh_plan, time_step};
 use crate::solver::{Settings, Solver, SolverError, TimeStep, Until};
 use crate::study::case::{self, Case};
 
@@ -113,7 +114,7 @@ fn leftover_share(mesh: &Mesh, plan: &Plan) -> f64 {
         .chain([i32::from(plan.element)])
         .collect();
     let leftover = mesh.elements.iter().filter(|element| !wanted.contains(&element.size));
-    leftover.map(|element| element.site_count()).sum::<usize>() as f64 / mesh.sites.len() as f64
+    leftover.map(Element::site_count).sum::<usize>() as f64 / mesh.sites.len() as f64
 }
 
 /// Bytes that a solver of this mesh holds: nodes, sites, triangles with their interfaces, atoms with their partners.

@@ -38,7 +38,7 @@ pub enum RunCaseError {
 }
 
 /// Computes a case into its folder and publishes the series and the fields there. Goes on from the folder's
-/// checkpoint if there is one; a damaged one is told through `warn`, and the run starts afresh.
+/// checkpoint if there is one, and says so through `warn`; a damaged one too, and then the run starts afresh.
 pub fn run_case(
     case: &Case,
     into: &Path,
@@ -97,6 +97,10 @@ fn resume(solver: &mut Solver, into: &Path, id: &str, warn: &mut (dyn FnMut(&str
         Ok(checkpoint) => {
             record::cut_back(into, Some(checkpoint.step))?;
             solver.restore(&checkpoint).map_err(SetupError::from)?;
+            warn(&format!(
+                "going on from step {}, {:.3} ps",
+                checkpoint.step, checkpoint.time
+            ));
         }
         Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
         Err(error @ RecordError::Damaged { .. }) => {

@@ -9,6 +9,8 @@ pub struct Checkpoint {
     pub time: f64,
     /// Time step in force, ps.
     pub time_step: f64,
+    /// Bound of the time step when it was last looked at, ps.
+    pub stability_limit: f64,
     /// Node positions, x then y, nm; each of length `nodes`.
     pub position: [Vec<f64>; 2],
     /// Node velocities at the same time, nm/ps.

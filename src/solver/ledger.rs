@@ -70,7 +70,13 @@ impl Ledger {
     }
 
     /// Refuses to go on when energy has gone astray.
-    pub fn check(&self, step: u64, time: f64, strain: f64) -> Result<(), SolverError> {
+    pub fn check(
+        &self,
+        step: u64,
+        time: f64,
+        strain: f64,
+        fastest: impl FnOnce() -> [f64; 2],
+    ) -> Result<(), SolverError> {
         let put_in = self.peak_work.max(self.initial_kinetic);
         if self.peak_imbalance <= Self::LIMIT * put_in || self.peak_imbalance == 0.0 {
             return Ok(());
@@ -83,6 +89,7 @@ impl Ledger {
             imbalance,
             put_in,
             limit,
+            fastest: fastest(),
         })
     }
 

@@ -68,11 +68,13 @@ pub struct ProfileLine {
 }
 
 impl ProfileLine {
-    /// Bins as wide as a triangle of the site set and its neighbour, of the elements next to the crack plane: one
+    /// Bins of half an element's edge and no less than two spacings, of the elements next to the crack plane: one
     /// element row on either side, and two rows of atoms.
     pub fn new(mesh: &Mesh, setting: &Setting) -> Self {
-        let width = f64::from(mesh.sites.layout.block + 1) * setting.spacing;
-        let bins = (setting.length / width).round().max(1.0) as usize;
+        let size = f64::from(setting.element_at_crack);
+        let wanted = (0.5 * (size + 1.0)).max(2.0) * setting.spacing;
+        let bins = (setting.length / wanted).floor().max(1.0) as usize;
+        let width = setting.length / bins as f64;
         let middle = mesh.sites.middle_row();
         let reach = (setting.element_at_crack as i32).max(2);
         let mut members = Vec::new();
@@ -94,7 +96,7 @@ impl ProfileLine {
         &self.centres
     }
 
-    /// Average virial stress in every bin, eV/nm^3.
+    /// Average virial stress in every bin, eV/nm^3; not a number where a bin holds no element.
     pub fn stress(&self, measure: &Measure, setting: &Setting) -> Vec<[f64; 3]> {
         let mut sums = vec![([0.0; 3], 0.0); self.centres.len()];
         for &(bin, element, sites) in &self.members {

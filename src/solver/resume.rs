@@ -11,6 +11,7 @@ impl Solver {
             step: self.step,
             time: self.time,
             time_step: self.time_step,
+            stability_limit: self.stability_limit,
             position: self.state.position.clone(),
             velocity: self.state.velocity.clone(),
             open_interfaces: self.forces.open_interfaces(),
@@ -30,6 +31,7 @@ impl Solver {
         self.step = checkpoint.step;
         self.time = checkpoint.time;
         self.time_step = checkpoint.time_step;
+        self.stability_limit = checkpoint.stability_limit;
         self.state.position.clone_from(&checkpoint.position);
         self.state.velocity.clone_from(&checkpoint.velocity);
         self.forces.restore_open_interfaces(&checkpoint.open_interfaces);

@@ -15,6 +15,7 @@ use super::{Attempt, ExitState, Failure, Manifest, Outcome, Program, Reached, St
 pub const SOLVER_LOCK: &str = ".solver-lock";
 
 const OUTCOME: &str = "outcome.json";
+const MANIFEST: &str = "manifest.json";
 
 /// The right to work on a run; given back when dropped.
 #[derive(Debug)]
@@ -78,8 +79,7 @@ impl Claim {
         fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
         files::remove(&folder.join("failure.json"))?;
         files::remove(&folder.join(OUTCOME))?;
-        let case_file = folder.join("case.yaml");
-        fs::write(&case_file, case_text).map_err(StoreError::write(&case_file))?;
+        files::write(&folder.join("case.yaml"), case_text.as_bytes())?;
         self.attempt.program = Program::current();
         self.attempt.attempts += 1;
         self.wall_seconds_before = self.attempt.wall_seconds;
@@ -111,7 +111,8 @@ impl Claim {
     ) -> Result<Manifest, StoreError> {
         self.note(None)?;
         let folder = self.folder();
-        for name in [OUTCOME, SOLVER_LOCK, "attempt.json", "failure.json"] {
+        // A manifest is there when a kill came just before the rename.
+        for name in [OUTCOME, SOLVER_LOCK, "attempt.json", "failure.json", MANIFEST] {
             files::remove(&folder.join(name))?;
         }
         let manifest = Manifest {
@@ -130,7 +131,7 @@ impl Claim {
             outcome,
             files: sync_files(&folder)?,
         };
-        files::write_json(&folder.join("manifest.json"), &manifest)?;
+        files::write_json(&folder.join(MANIFEST), &manifest)?;
         files::sync(&folder)?;
         self.rename_into_place(&folder)?;
         Ok(manifest)

@@ -17,7 +17,8 @@ pub struct Removed {
 }
 
 impl Store {
-    /// Removes runs that were never published, published runs that are not in `current`, and what points at them.
+    /// Removes runs that were never published, published runs that are not in `current`, what points at them, and
+    /// what a killed process was just writing.
     pub fn clean(&self, current: &BTreeSet<String>, cases: &BTreeSet<String>) -> Result<Vec<Removed>, StoreError> {
         let mut removed = Vec::new();
         for name in entries(&self.root.join("runs"))? {
@@ -34,6 +35,11 @@ impl Store {
             let link = self.case_link(&name);
             if !cases.contains(&name) || !link.exists() {
                 files::remove(&link)?;
+            }
+        }
+        for name in entries(&self.root)? {
+            if name.ends_with(files::ASIDE) {
+                files::remove(&self.root.join(name))?;
             }
         }
         Ok(removed)

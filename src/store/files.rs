@@ -12,15 +12,20 @@ use super::StoreError;
 /// End of the name of a file that is still being written.
 pub const ASIDE: &str = ".new";
 
-/// Writes `value` aside, flushes it to the disk and renames it into place.
+/// Writes `value` as JSON, as [`write`] does.
 pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError> {
     let mut text = serde_json::to_vec_pretty(value).expect("these types always have a JSON form");
     text.push(b'\n');
+    write(path, &text)
+}
+
+/// Writes `bytes` aside, flushes them to the disk and renames them into place.
+pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     // Two processes may write the same file at once: each has its own aside, and the last one wins.
     let aside = path.with_extension(format!("{}{ASIDE}", std::process::id()));
     let write = || {
         let mut file = File::create(&aside)?;
-        file.write_all(&text)?;
+        file.write_all(bytes)?;
         file.sync_all()?;
         fs::rename(&aside, path)
     };

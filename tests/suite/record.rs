@@ -20,6 +20,7 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         step: u64::MAX,
         time: number(1),
         time_step: 2.5e-3,
+        stability_limit: number(5),
         position: [column(10), column(20)],
         velocity: [column(30), column(40)],
         open_interfaces: vec![0, 7, u32::MAX],

@@ -240,3 +240,21 @@ fn a_blow_up_is_reported_with_step_and_advice() {
     let text = error.to_string();
     assert!(text.starts_with("step ") && text.contains("try a "), "{text}");
 }
+
+#[test]
+fn a_run_that_stopped_at_its_end_has_nothing_left_to_give() {
+    let material = nearest_neighbours();
+    let mesh = slab(10, vec![], material.spacing);
+    let mut whole = solver(mesh.clone(), material, settings(0.02));
+    let (kept, ending) = run(&mut whole);
+    let mut again = solver(mesh, material, settings(0.02));
+    again.restore(kept.checkpoints.last().unwrap()).unwrap();
+    let (rest, same_ending) = run(&mut again);
+    assert_eq!(same_ending, ending);
+    assert_eq!(
+        (rest.probes.len(), rest.snapshots.len(), rest.checkpoints.len()),
+        (0, 0, 0)
+    );
+    assert!(again.checkpoint() == whole.checkpoint());
+    assert_eq!(again.time_step(), whole.time_step());
+}

@@ -35,6 +35,18 @@ fn publish(store: &Store, id: &str) {
     claim.publish(found, "A", &json!({"crack": "none"}), 1, 2).unwrap();
 }
 
+#[test]
+fn a_run_killed_just_before_it_was_published_is_published_whole() {
+    let (_folder, store) = store();
+    publish(&store, "1f");
+    fs::rename(store.run_folder("1f"), store.partial_folder("1f")).unwrap();
+    let mut claim = store.claim("1f").unwrap().unwrap();
+    assert_eq!(claim.state(), State::Partial(None));
+    claim.begin("case: A\n", false).unwrap();
+    claim.publish(outcome(), "A", &json!({"crack": "none"}), 1, 2).unwrap();
+    assert!(matches!(store.state("1f"), State::Done(_)), "{:?}", store.state("1f"));
+}
+
 fn set(names: &[&str]) -> BTreeSet<String> {
     names.iter().map(|name| (*name).to_owned()).collect()
 }

@@ -50,8 +50,7 @@ fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
             }
         }
         State::Failed(failed) => {
-            // Outputs up to the failure are kept; that none can be read is no second failure.
-            result.series = record::read_segments(&survey.store.partial_folder(&entry.id)).unwrap_or_default();
+            set_kept(&mut result, &survey.store.partial_folder(&entry.id));
             result.manifest.version = failed.program.version.clone();
             result.manifest.commit = failed.program.commit.clone();
             result.manifest.ended = Some(moment(failed.ended));
@@ -62,6 +61,18 @@ fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
         State::Missing => {}
     }
     result
+}
+
+/// What a failed run has kept; that nothing can be read is no second failure.
+fn set_kept(result: &mut CaseResult, folder: &Path) {
+    if let Ok((setting, series, last_frame)) = read_run(folder) {
+        result.setting = Some(setting);
+        result.series = series;
+        result.last_frame = last_frame;
+    } else {
+        // A killed solver leaves segments, which tell nothing of the specimen.
+        result.series = record::read_segments(folder).unwrap_or_default();
+    }
 }
 
 /// What a run has left: setting, series and, if it took pictures, the last one.

@@ -95,10 +95,10 @@ impl Builder<'_> {
                 self.put(Node { place, value }, anchor)?;
             }
             Event::SequenceStart(_, anchor, tag) => {
-                self.begin(Content::List(Vec::new()), anchor, tag.is_some(), place)?
+                self.begin(Content::List(Vec::new()), anchor, tag.is_some(), place)?;
             }
             Event::MappingStart(_, anchor, tag) => {
-                self.begin(Content::Map(OpenMap::default()), anchor, tag.is_some(), place)?
+                self.begin(Content::Map(OpenMap::default()), anchor, tag.is_some(), place)?;
             }
             Event::SequenceEnd | Event::MappingEnd => self.end()?,
             _ => (),

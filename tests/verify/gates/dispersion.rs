@@ -159,7 +159,8 @@ fn lattice_frequency(stiffness: f64, phase: f64) -> f64 {
 
 const WAVELENGTHS: [f64; 5] = [200.0, 100.0, 60.0, 40.0, 30.0];
 
-/// Atoms an edge, highest frequency, percent by which longitudinal waves along the rows are slow at each wavelength,
+/// Atoms an edge, highest frequency (of this arrangement of the triangles, rows shifted to and fro; rows all shifted to
+/// one side reach 0.2 to 0.6 % higher), percent by which longitudinal waves along the rows are slow at each wavelength,
 /// and half of the last digit that each was printed with.
 const TABLE: [(i32, f64, [(f64, f64); 5]); 5] = [
     (
@@ -189,8 +190,8 @@ const TABLE: [(i32, f64, [(f64, f64); 5]); 5] = [
     ),
 ];
 
-/// Half of the last digit of a frequency in the table.
-const PRINTED_FREQUENCY: f64 = 0.005;
+/// One of the last digit of a frequency in the table.
+const PRINTED_FREQUENCY: f64 = 1e-4;
 
 #[test]
 fn waves_through_triangles_are_as_slow_as_bloch_analysis_says() {
@@ -212,8 +213,12 @@ fn waves_through_triangles_are_as_slow_as_bloch_analysis_says() {
             let wave = phase / material.spacing;
             let found = bloch.frequency([wave, 0.0], [1.0, 0.0]) / lattice_frequency(stiffness, phase);
             let claim = format!("c_L along a row at {wavelength} r0, percent off the lattice");
-            gate.near(&claim, &setting, 100.0 * (found - 1.0), expected, digit);
+            // Shorter than two cells a wave is no longer told from its images.
+            if wavelength > 2.0 * f64::from(size + 1) {
+                gate.near(&claim, &setting, 100.0 * (found - 1.0), expected, digit);
+            }
         }
+        // Speeds in the other directions, for which the table has no digits.
         let phase = 2.0 * std::f64::consts::PI / 60.0;
         let wave = phase / material.spacing;
         for (name, wave, displacement) in [

@@ -1,7 +1,6 @@
 //! Cracked specimens at rest between grips.
 
 use cgaft::forces::Forces;
-use cgaft::lattice::triangular;
 use cgaft::loading::{Grip, Stretching};
 use cgaft::material::Material;
 use cgaft::mesh::cut::Cut;
@@ -25,11 +24,6 @@ impl Shape {
     /// Lattice rows that pull on each other between the rigid grips.
     pub fn gaps(&self) -> i32 {
         self.layout.lattice_rows() - 2 * self.grip_rows + 1
-    }
-
-    /// Height between the grips.
-    pub fn height(&self) -> f64 {
-        f64::from(self.gaps()) * triangular::ROW_HEIGHT
     }
 }
 

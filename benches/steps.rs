@@ -1,0 +1,90 @@
+//! Time of one step, in represented atoms a second: `cargo bench`.
+
+use cgaft::forces::Forces;
+use cgaft::loading::{Grip, Stretching};
+use cgaft::material::Material;
+use cgaft::mesh::sites::Layout;
+use cgaft::mesh::{Mesh, Plan};
+use cgaft::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
+use cgaft::solver::{Settings, Solver, TimeStep, Until};
+use divan::Bencher;
+use divan::counter::ItemsCount;
+
+fn main() {
+    divan::main();
+}
+
+/// The source's material at 0.34 nm, reduced units.
+fn material() -> Material {
+    let shape = LennardJones {
+        epsilon: 1.0,
+        sigma: 1.0,
+    };
+    let law = CutPotential::new(shape, 0.34 / 0.2277, AtCutoff::Truncated);
+    Material::new(Interaction::LennardJones(law), 1.0).expect("the potential binds")
+}
+
+/// The slab of the quickstart, cracked.
+fn slab(element: u16) -> Mesh {
+    let layout = Layout {
+        block: 10,
+        rows: 16,
+        triangles: 81,
+    };
+    let spacing = material().spacing;
+    Mesh::new(&Plan {
+        layout,
+        element,
+        regions: vec![],
+        crack_length: Some(180.0),
+        grip_rows: 10,
+        spacing,
+    })
+}
+
+fn solver(element: u16) -> Solver {
+    let mesh = slab(element);
+    let loading = Stretching::new(&mesh, 1e-4, Grip::Clamped, true);
+    let settings = Settings {
+        time_step: TimeStep::Auto { fraction: 0.5 },
+        until: Until::default(),
+        probe_every: f64::INFINITY,
+        snapshot_every: None,
+        checkpoint_every: std::time::Duration::MAX,
+        thickness: 1.0,
+    };
+    Solver::new(mesh, material(), loading, settings).expect("the slab starts")
+}
+
+#[divan::bench(args = [1, 4, 10, 20])]
+fn step(bencher: Bencher, element: u16) {
+    let mut solver = solver(element);
+    let atoms = solver.mesh().sites.len();
+    bencher
+        .counter(ItemsCount::new(atoms))
+        .bench_local(|| solver.advance().expect("the step is stable"));
+}
+
+#[divan::bench(args = [1, 10])]
+fn energy_and_stress(bencher: Bencher, element: u16) {
+    let mesh = slab(element);
+    let position = mesh.node_positions();
+    let atoms = mesh.sites.len();
+    let mut forces = Forces::new(mesh, material());
+    bencher
+        .counter(ItemsCount::new(atoms))
+        .bench_local(|| forces.measure(&position).expect("the lattice is sound"));
+}
+
+#[divan::bench(args = [1, 10])]
+fn broken_bonds(bencher: Bencher, element: u16) {
+    let mesh = slab(element);
+    let position = mesh.node_positions();
+    let forces = Forces::new(mesh, material());
+    bencher.bench_local(|| forces.broken_bonds(&position));
+}
+
+#[divan::bench(args = [1, 10])]
+fn set_up(bencher: Bencher, element: u16) {
+    bencher.bench_local(|| solver(element));
+}

@@ -1,0 +1,105 @@
+//! What goes wrong, and with which exit code.
+
+use std::fs;
+use std::path::PathBuf;
+
+use super::{PATIENCE, Program, STUDY, Workspace, table};
+
+/// The mixed case with another way of choosing the time step.
+fn with_time_step(time_step: &str) -> String {
+    let mixed = "mixed: {";
+    assert!(STUDY.contains(mixed));
+    STUDY.replace(mixed, &format!("{mixed}run: {{time-step: {time_step}}}, "))
+}
+
+#[test]
+fn a_time_step_above_the_limit_is_refused_before_anything_starts() {
+    // Twice the limit of atoms; the coarse case alone could take it.
+    let place = Workspace::with(&with_time_step("220 fs"));
+    for command in ["check", "run", "plan"] {
+        let refused = place.cgaft(command, &[]).ended_with(2);
+        for word in ["case `mixed`", "0.22000 ps", "stability limit", "`time-step: auto`"] {
+            assert!(refused.stderr.contains(word), "{}", refused.stderr);
+        }
+    }
+    assert!(!place.path("results").exists());
+}
+
+#[test]
+fn a_blow_up_fails_its_case_keeps_what_there_is_and_lets_the_others_run() {
+    // At the limit itself the breaking crystal is no longer stable.
+    let place = Workspace::with(&with_time_step("{fraction: 1.0}"));
+    let run = place.cgaft("run", &[]).ended_with(1);
+    assert!(run.stdout.contains("1 of 3 cases failed"), "{}", run.stdout);
+    assert_eq!(place.states(), ["done", "failed", "done"]);
+    for told in [
+        "mixed: failed: the physics failed",
+        "step ",
+        "x = ",
+        "y = ",
+        "try a smaller fraction",
+    ] {
+        assert!(run.stderr.contains(told), "no `{told}` in {}", run.stderr);
+    }
+
+    let kept = partial(&place);
+    for name in ["case.yaml", "log.txt", "series.h5", "fields.vtkhdf", "failure.json"] {
+        assert!(kept.join(name).exists(), "{name}");
+    }
+    let page = fs::read_to_string(place.results().join("report.html")).unwrap();
+    assert!(page.contains("2 of 3 cases done, 1 failed") && page.contains("energy went astray"));
+    let rows = table(&place.results(), "stress_strain");
+    let of_mixed = rows.iter().filter(|row| row["case"] == "mixed").count();
+    assert!(of_mixed > 100, "{of_mixed} rows up to the failure");
+
+    // The solver alone says the same by its own exit code.
+    let alone = place.path("alone");
+    let case = kept.join("case.yaml");
+    let solve = &mut place.solver(&case, &alone, &["--threads", "1"]);
+    let failed = Program::start(solve, &place).wait(PATIENCE).ended_with(4);
+    assert!(
+        failed.stderr.contains("step ") && failed.stderr.contains("kept in"),
+        "{}",
+        failed.stderr
+    );
+    assert_eq!(
+        fs::read(alone.join("series.h5")).unwrap(),
+        fs::read(kept.join("series.h5")).unwrap()
+    );
+
+    // Run again, it starts over and not from the beginning of the blow-up; the others are left alone.
+    let again = place.cgaft("run", &[]).ended_with(1);
+    assert!(
+        again.stdout.contains("mixed: runs (failed before: the physics failed"),
+        "{}",
+        again.stdout
+    );
+    assert!(again.stdout.contains("starts over"), "{}", again.stdout);
+    assert!(again.started("mixed") && !again.started("atoms") && !again.started("coarse"));
+}
+
+/// Folder of the one run that is not published.
+fn partial(place: &Workspace) -> PathBuf {
+    let runs = fs::read_dir(place.results().join("runs"))
+        .unwrap()
+        .flatten()
+        .map(|run| run.path());
+    let mut partial = runs.filter(|run| run.extension().is_some_and(|end| end == "partial"));
+    partial.next().unwrap()
+}
+
+#[test]
+fn a_place_that_cannot_be_written_is_told_before_anything_is_computed() {
+    let place = Workspace::new();
+    fs::write(place.path("results"), "in the way").unwrap();
+    let refused = place.cgaft("run", &[]).ended_with(5);
+    assert!(refused.stderr.contains("--results DIR"), "{}", refused.stderr);
+
+    fs::remove_file(place.path("results")).unwrap();
+    place.cgaft("run", &["--only", "coarse"]).succeeded();
+    fs::write(place.path("wall"), "in the way").unwrap();
+    let case = place.case("coarse").join("case.yaml");
+    let solve = &mut place.solver(&case, &place.path("wall/coarse"), &[]);
+    let refused = Program::start(solve, &place).wait(PATIENCE).ended_with(5);
+    assert!(refused.stderr.contains("cannot write"), "{}", refused.stderr);
+}
