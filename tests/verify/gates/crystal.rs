@@ -126,7 +126,7 @@ fn the_spacing_of_each_cutoff_is_the_reference_and_leaves_no_pressure() {
         gate.near("r0", &name, material.spacing, expected, PRINTED_SPACING);
         let pressure = first(|strain| energy_density(10, &material, [strain, strain, 0.0]));
         gate.below(
-            "|pressure|/C11",
+            "size of the pressure over C11",
             &name,
             pressure.abs() / Elasticity::of(&material).c11,
             PRESSURE,
