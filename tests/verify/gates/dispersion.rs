@@ -159,10 +159,13 @@ fn lattice_frequency(stiffness: f64, phase: f64) -> f64 {
 
 const WAVELENGTHS: [f64; 5] = [200.0, 100.0, 60.0, 40.0, 30.0];
 
+/// Numbers with half of their last digit.
+type Printed = [(f64, f64); WAVELENGTHS.len()];
+
 /// Atoms an edge, highest frequency (of this arrangement of the triangles, rows shifted to and fro; rows all shifted to
 /// one side reach 0.2 to 0.6 % higher), percent by which longitudinal waves along the rows are slow at each wavelength,
 /// and half of the last digit that each was printed with.
-const TABLE: [(i32, f64, [(f64, f64); 5]); 5] = [
+const TABLE: [(i32, f64, Printed); 5] = [
     (
         4,
         12.1996,
