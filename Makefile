@@ -5,12 +5,13 @@ TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test check lint schema setup test-setup install
+.PHONY: help quickstart build test verify check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
 	@echo 'make quickstart   build, then run studies/quickstart.yaml and build its report'
 	@echo 'make test         build, then run all fast tests'
+	@echo 'make verify       the long verification: closed forms, and the same specimens in LAMMPS, which it installs; writes docs/verification.md'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
 	@echo 'make schema       write schemas/study.schema.json again from the types'
@@ -24,6 +25,11 @@ build: setup
 
 test: test-setup
 	$(CARGO) test --release --locked
+
+# The programs are built first, so that the verification has them whatever was built before.
+verify: build
+	@.ci/packages lammps
+	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test verify
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \

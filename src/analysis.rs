@@ -47,7 +47,7 @@ pub fn analyse(series: &Series, setting: &Setting) -> Findings {
     let speeds = speed::speeds(&history.tips, series, initiation, window);
     let near_tip = initiation.and_then(|start| {
         let before = start.probe.checked_sub(1)?;
-        stress_intensity::near_tip(series, before, history.tips[before].x, setting)
+        stress_intensity::near_tip(series, before, history.tips[before], setting)
     });
     Findings {
         arrivals: waves::predicted(history.tips.first().map(|tip| tip.x), setting),

@@ -6,6 +6,7 @@ mod completions;
 mod doctor;
 mod error;
 mod estimate;
+mod export;
 mod format;
 mod new;
 mod plan;
@@ -41,6 +42,9 @@ enum Command {
     /// Run, check and report a study
     #[command(subcommand)]
     Study(StudyCommand),
+    /// Write a case as input of another program
+    #[command(subcommand)]
+    Export(export::Command),
     /// Print the JSON Schema of a study file, for editors
     Schema,
     /// Write a commented study to start from
@@ -93,6 +97,7 @@ impl Command {
             Command::Study(StudyCommand::Status(arguments)) => status::status(&arguments),
             Command::Study(StudyCommand::Report(arguments)) => report::rebuild_report(&arguments),
             Command::Study(StudyCommand::Clean(arguments)) => clean::clean(&arguments),
+            Command::Export(export::Command::Lammps(arguments)) => export::lammps(&arguments),
             Command::Schema => schema::schema(),
             Command::New(arguments) => new::new(&arguments),
             Command::Completions(arguments) => completions::completions(&arguments),
@@ -108,6 +113,7 @@ impl Command {
             Command::Study(StudyCommand::Status(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Report(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Clean(arguments)) => arguments.common.json,
+            Command::Export(export::Command::Lammps(arguments)) => arguments.common.json,
             _ => false,
         }
     }

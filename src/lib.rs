@@ -3,6 +3,7 @@
 pub mod analysis;
 pub mod cli;
 pub mod executor;
+pub mod export;
 pub mod forces;
 pub mod integrator;
 pub mod lattice;

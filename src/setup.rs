@@ -1,5 +1,6 @@
 //! A resolved case becomes a ready solver, and a run its folder.
 
+mod census;
 mod estimate;
 mod recorder;
 mod run;
@@ -9,8 +10,9 @@ pub use run::{Finished, RunCaseError, run_case};
 
 use std::time::Duration;
 
+use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching};
-use crate::material::Material;
+use crate::material::{Material, WaveSpeeds};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
@@ -28,6 +30,17 @@ pub enum SetupError {
     )]
     NoLattice { cutoff: f64, minimum: f64 },
     #[error(
+        "a cutoff of {cutoff} nm is more than {most} times the distance of lowest energy, {minimum:.4} nm: \
+         every site would have hundreds of partners; write a shorter one"
+    )]
+    CutoffTooLong { cutoff: f64, minimum: f64, most: f64 },
+    #[error("the run would take {steps} steps of {time_step:e} ps; look at the strain rate, the mass and `until`")]
+    Endless { steps: u64, time_step: f64 },
+    #[error(
+        "the grips would part at {speed:.3} nm/ps each, faster than sound ({sound:.3} nm/ps); lower the strain rate"
+    )]
+    FasterThanSound { speed: f64, sound: f64 },
+    #[error(
         "a specimen of {length} x {width} nm has room for {rows} rows of {triangles} triangles of {block} atoms an edge \
          ({spacing:.4} nm apart); it needs 4 rows (two are grips) of at least 3: make it larger, or `block` smaller"
     )]
@@ -40,6 +53,11 @@ pub enum SetupError {
         spacing: f64,
     },
     #[error(
+        "elements of {element} atoms an edge do not fit: either side of the crack plane has {rows} rows of atoms \
+         up to the grip; use {rows} or less"
+    )]
+    ElementTooLarge { element: u32, rows: i32 },
+    #[error(
         "a mesh of {sites} sites needs about {needed:.1} GiB and this machine has {present:.1} GiB free; \
          make the specimen smaller, or use larger elements"
     )]
@@ -47,6 +65,9 @@ pub enum SetupError {
     #[error(transparent)]
     Solver(#[from] SolverError),
 }
+
+/// Longest cutoff in units of the distance of lowest energy.
+const MOST_MINIMA: f64 = 10.0;
 
 /// The crystal of a case.
 pub fn material(case: &Case) -> Result<Material, SetupError> {
@@ -70,6 +91,14 @@ pub fn material(case: &Case) -> Result<Material, SetupError> {
             at_cutoff,
         )),
     };
+    let minimum = interaction.minimum();
+    if cutoff > MOST_MINIMA * minimum {
+        return Err(SetupError::CutoffTooLong {
+            cutoff,
+            minimum,
+            most: MOST_MINIMA,
+        });
+    }
     let site_mass = case.material.mass * U_IN_EV_PS2_PER_NM2;
     Material::new(interaction, site_mass).ok_or(SetupError::NoLattice {
         cutoff,
@@ -97,18 +126,32 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
             spacing,
         });
     }
-    let region = |region: &case::Region| Region {
-        element: region.element as u16,
-        shape: match region.shape {
+    let case::Loading::StrainRate { rate, .. } = case.loading;
+    let speed = 0.5 * rate * f64::from((layout.rows - 2) * layout.block) * triangular::ROW_HEIGHT * spacing;
+    let sound = WaveSpeeds::of(material).longitudinal;
+    if speed > sound {
+        return Err(SetupError::FasterThanSound { speed, sound });
+    }
+    let highest = (layout.rows - layout.rows / 2 - 1) * layout.block;
+    let element = |element: u32| match u16::try_from(element) {
+        Ok(fitting) if i32::from(fitting) <= highest => Ok(fitting),
+        _ => Err(SetupError::ElementTooLarge { element, rows: highest }),
+    };
+    let region = |region: &case::Region| -> Result<Region, SetupError> {
+        let shape = match region.shape {
             case::RegionShape::Band { half_width } => Shape::Band { half_width },
             case::RegionShape::Box { from, to } => Shape::Box { from, to },
             case::RegionShape::Disc { center, radius } => Shape::Disc { center, radius },
-        },
+        };
+        Ok(Region {
+            shape,
+            element: element(region.element)?,
+        })
     };
     Ok(Plan {
         layout,
-        element: case.resolution.element as u16,
-        regions: case.resolution.regions.iter().map(region).collect(),
+        element: element(case.resolution.element)?,
+        regions: case.resolution.regions.iter().map(region).collect::<Result<_, _>>()?,
         crack_length: case.crack.as_ref().map(
             |case::Crack {
                  edge: case::Edge::Left,

@@ -95,13 +95,16 @@ pub enum SolverError {
     )]
     StepTooLong { given: f64, limit: f64 },
     #[error(
-        "step {step}, {time:.3} ps, strain {strain:.5}: {source}; \
-         try a smaller fraction of the stability limit or a lower strain rate"
+        "step {step}, {time:.3} ps, strain {strain:.5}: {source}, which was at x = {:.3} nm, y = {:.3} nm; \
+         try a smaller fraction of the stability limit or a lower strain rate",
+        place[0], place[1]
     )]
     BlowUp {
         step: u64,
         time: f64,
         strain: f64,
+        /// Where the element was before the loading: nm from the left edge, and from the crack plane.
+        place: [f64; 2],
         source: ForceError,
     },
     #[error(
@@ -328,7 +331,15 @@ impl Solver {
             step: self.step,
             time: self.time,
             strain: self.strain(),
+            place: self.reference_place(self.mesh().first_node(source.element())),
             source,
         }
+    }
+
+    /// Where a node was before the loading: nm from the left edge, and from the crack plane.
+    fn reference_place(&self, node: usize) -> [f64; 2] {
+        let mesh = self.mesh();
+        let [x, y] = mesh.node_positions();
+        [x[node] - self.setting.left_x, y[node] - mesh.middle_height()]
     }
 }

@@ -33,6 +33,9 @@ use serde::{Deserialize, Serialize};
 /// Layout of the folder; goes up when an older program would misread it.
 const FORMAT: u32 = 1;
 
+/// The file that tells it.
+const MARK: &str = "store.json";
+
 /// The results of one study.
 #[derive(Clone, Debug)]
 pub struct Store {
@@ -120,6 +123,6 @@ impl Store {
     }
 
     fn mark(&self) -> PathBuf {
-        self.root.join("store.json")
+        self.root.join(MARK)
     }
 }

@@ -1,6 +1,9 @@
-//! Physics against closed forms and published numbers. It takes minutes: `cargo test --release --test verify`.
+//! What takes long or needs other programs to verify: `make verify`, no part of `make test`.
 
 mod verify {
     mod gates;
+    mod lammps;
+    #[path = "../suite/specimens.rs"]
+    mod specimens;
     mod table;
 }

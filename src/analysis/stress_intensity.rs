@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::crack::Tip;
 use super::regression;
 use super::series::{Series, Setting};
 
@@ -12,6 +13,9 @@ pub const FROM_ELEMENTS: f64 = 1.0;
 
 /// The fit ends at this share of the crack length, the ligament or the height, whichever is smallest.
 pub const TO_SHARE: f64 = 1.0 / 3.0;
+
+/// A tip farther than this from the plane of the profile has kinked.
+pub const OFF_PLANE_SPACINGS: f64 = 2.0;
 
 /// Bins that a fit of two numbers with an error must have.
 pub const LEAST_BINS: usize = 3;
@@ -28,9 +32,13 @@ pub struct NearTip {
     pub bins: usize,
 }
 
-/// K from the profile of one probe with the tip at `tip` nm from the left edge; `None` where the range holds too few
-/// bins.
-pub fn near_tip(series: &Series, probe: usize, tip: f64, setting: &Setting) -> Option<NearTip> {
+/// K from the profile of one probe; `None` where the range holds too few bins, and where the tip has left the plane
+/// of the profile, so that the field ahead of it is not the one measured.
+pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> Option<NearTip> {
+    if tip.y.abs() > OFF_PLANE_SPACINGS * setting.spacing {
+        return None;
+    }
+    let tip = tip.x;
     let from = setting.spacing * FROM_SPACINGS.max(FROM_ELEMENTS * f64::from(setting.element_at_crack));
     let to = TO_SHARE * tip.min(setting.length - tip).min(setting.height);
     let points: Vec<(f64, f64)> = ahead(series, probe, tip)

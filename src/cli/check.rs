@@ -1,7 +1,7 @@
 use clap::Args;
 use serde_json::json;
 
-use super::estimate::estimate;
+use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
 use super::{CliError, format};
@@ -16,7 +16,7 @@ pub struct Arguments {
 /// `cgaft study check FILE`
 pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
     let plan = survey::read(&arguments.common.study)?;
-    let estimates = plan.cases.iter().map(estimate).collect::<Result<Vec<_>, _>>()?;
+    let estimates = estimates(plan.cases.iter())?;
     let sized: Vec<_> = plan
         .cases
         .iter()
@@ -34,10 +34,10 @@ pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
         rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));
         let total: f64 = estimates.iter().map(|estimate| estimate.seconds).sum();
         format!(
-            "{}\n{}: no mistakes; {} cases, about {} on one core\n",
+            "{}\n{}: no mistakes; {}, about {} on one core\n",
             format::table(&rows),
             plan.study,
-            plan.cases.len(),
+            format::count(plan.cases.len(), "case"),
             format::duration(total)
         )
     })?;
@@ -62,7 +62,9 @@ fn row(name: &str, estimate: &Estimate) -> Vec<String> {
         estimate.nodes.to_string(),
         estimate.elements.to_string(),
         estimate.represented_atoms.to_string(),
-        format!("{:.1} %", 100.0 * estimate.leftover_share),
+        estimate
+            .leftover_share
+            .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
         estimate.steps.to_string(),
         format!(
             "{:.3} / {:.3} fs",

@@ -89,3 +89,8 @@ mod tests {
         assert_eq!(list(&rows), "case  nodes\nA     12\n");
     }
 }
+
+/// "1 case", "2 cases".
+pub fn count(number: usize, word: &str) -> String {
+    format!("{number} {word}{}", if number == 1 { "" } else { "s" })
+}

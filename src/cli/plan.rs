@@ -50,7 +50,10 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
         } else {
             &entry.reason
         };
-        words.push_str(&format!("{}: {doing} ({reason})\n    {command}\n", entry.planned.name));
+        words.push_str(&format!("{}: {doing} ({reason})\n", entry.planned.name));
+        if runs {
+            words.push_str(&format!("    {command}\n"));
+        }
         let mut case = entry.to_json();
         case["runs"] = json!(runs);
         case["reason"] = json!(reason);
@@ -58,6 +61,11 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
         cases.push(case);
     }
     words.push_str(&format!("\n{}\n", run::summary(prepared.jobs.len(), share)));
+    if !prepared.jobs.is_empty() {
+        words.push_str(
+            "`study run` writes each case.yaml before it starts the command, and holds its standard input.\n",
+        );
+    }
     let json = json!({ "study": survey.plan.study, "jobs": share.jobs, "threads": share.threads, "cases": cases });
     Terminal {
         quiet: false,

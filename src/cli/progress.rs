@@ -37,13 +37,14 @@ fn progress_words(progress: &Progress, pace: &Pace) -> String {
         ..
     } = progress;
     let tip = tip_nm.map(|tip| format!("  tip {tip:.1} nm")).unwrap_or_default();
+    // A narrow terminal cuts the end off, so the time left comes first.
     let left = pace
         .seconds_left(*percent)
-        .map(|left| format!("  about {} left", format::duration(left)));
+        .map(|left| format!("about {} left  ", format::duration(left)));
     format!(
-        "step {step}/{of}  strain {:.3} %{tip}{}",
-        100.0 * strain,
-        left.unwrap_or_default()
+        "{}strain {:.3} %{tip}  step {step}/{of}",
+        left.unwrap_or_default(),
+        100.0 * strain
     )
 }
 

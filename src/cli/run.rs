@@ -4,14 +4,15 @@ use std::thread;
 use clap::{Args, ValueEnum};
 use serde_json::{Value, json};
 
-use super::estimate::estimate;
+use super::estimate::estimates;
 use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
-use super::{CliError, plan, report};
+use super::{CliError, format, plan, report};
 use crate::executor::share::{Share, share};
 use crate::executor::{self, Ending, Job, Settings, Stop, exit, launch};
 use crate::plan as planning;
+use crate::setup::Estimate;
 use crate::store::State;
 
 #[derive(Args, Debug)]
@@ -26,13 +27,13 @@ pub struct Arguments {
     /// Cases at once [default: what ends first without more threads than cores]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
-    /// MPI ranks a case
+    /// MPI ranks a case; more than 1 is not in this version
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub ranks: Option<u32>,
     /// Threads a case [default: the cores of this machine, shared between the jobs]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub threads: Option<u32>,
-    /// Where the cases are computed
+    /// Where the cases are computed; only local in this version
     #[arg(long, value_enum, default_value = "local")]
     pub on: On,
     /// Tell what would run and why, and change nothing
@@ -108,18 +109,7 @@ fn refuse_what_is_not_here(arguments: &Arguments) -> Result<(), CliError> {
 pub fn chosen(survey: &Survey, only: &[String]) -> Result<Vec<usize>, CliError> {
     let names: Vec<&str> = survey.entries.iter().map(|entry| entry.planned.name.as_str()).collect();
     for wanted in only {
-        if !names.contains(&wanted.as_str()) {
-            let nearest = names
-                .iter()
-                .max_by(|a, b| strsim::jaro(a, wanted).total_cmp(&strsim::jaro(b, wanted)));
-            let nearest = nearest
-                .map(|name| format!(" Did you mean `{name}`?"))
-                .unwrap_or_default();
-            let (study, names) = (&survey.plan.study, names.join(", "));
-            return Err(CliError::Input(format!(
-                "study {study} has no case `{wanted}`.{nearest} It has: {names}"
-            )));
-        }
+        survey::named(&survey.plan, wanted)?;
     }
     let means = |name: &str| only.is_empty() || only.iter().any(|wanted| wanted == name);
     Ok((0..names.len()).filter(|&position| means(names[position])).collect())
@@ -133,24 +123,24 @@ pub struct Prepared {
 
 /// Every chosen case that is not done, once each.
 pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Result<Prepared, CliError> {
-    let mut jobs: Vec<Job> = Vec::new();
-    for &position in chosen {
-        let entry = &survey.entries[position];
+    let mut wanted: Vec<&Entry> = Vec::new();
+    for entry in chosen.iter().map(|&position| &survey.entries[position]) {
         let is_done = matches!(entry.state, State::Done(_)) && !arguments.fresh;
-        if is_done || jobs.iter().any(|job| job.id == entry.id) {
-            continue;
+        if !is_done && wanted.iter().all(|other| other.id != entry.id) {
+            wanted.push(entry);
         }
-        let planned = &entry.planned;
-        jobs.push(Job {
-            name: planned.name.clone(),
-            id: entry.id.clone(),
-            case_text: planning::write_case(planned),
-            case: planning::spelled(&planned.case),
-            seconds: estimate(planned)?.seconds,
-            threads: arguments.threads.or(planned.case.execution.threads),
-            fresh: arguments.fresh,
-        });
     }
+    let estimates = estimates(wanted.iter().map(|entry| &entry.planned))?;
+    let job = |(entry, estimate): (&Entry, &Estimate)| Job {
+        name: entry.planned.name.clone(),
+        id: entry.id.clone(),
+        case_text: planning::write_case(&entry.planned),
+        case: planning::spelled(&entry.planned.case),
+        seconds: estimate.seconds,
+        threads: arguments.threads.or(entry.planned.case.execution.threads),
+        fresh: arguments.fresh,
+    };
+    let jobs: Vec<Job> = wanted.into_iter().zip(&estimates).map(job).collect();
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let seconds: Vec<f64> = jobs.iter().map(|job| job.seconds).collect();
     let threads = jobs.iter().filter_map(|job| job.threads).max();
@@ -160,15 +150,14 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
 
 /// `2 cases to run, 2 at once with 1 thread each`
 pub fn summary(cases: usize, share: Share) -> String {
-    let count = |number: usize, word: &str| format!("{number} {word}{}", if number == 1 { "" } else { "s" });
     if cases == 0 {
         return "nothing to run".to_owned();
     }
     let at_once = share.jobs.min(cases);
     format!(
         "{} to run, {at_once} at once with {} each",
-        count(cases, "case"),
-        count(share.threads as usize, "thread")
+        format::count(cases, "case"),
+        format::count(share.threads as usize, "thread")
     )
 }
 

@@ -219,7 +219,8 @@ impl From<RunCaseError> for SolveError {
         match error {
             RunCaseError::Setup(setup) => Self::Input(setup.to_string()),
             physics @ RunCaseError::Physics(..) => Self::Physics(physics.to_string()),
-            RunCaseError::Record(record) => Self::Output(record.to_string()),
+            RunCaseError::Record(record) if record.is_write_failure() => Self::Output(record.to_string()),
+            RunCaseError::Record(record) => Self::Input(record.to_string()),
             threads @ RunCaseError::Threads { .. } => Self::Environment(threads.to_string()),
         }
     }

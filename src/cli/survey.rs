@@ -7,6 +7,7 @@ use clap::Args;
 use super::CliError;
 use crate::executor::queue::starts_over;
 use crate::plan::{self, Plan, PlannedCase};
+use crate::record::CHECKPOINT_FILE;
 use crate::store::{Attempt, Reached, State, Store};
 use crate::study;
 
@@ -59,6 +60,24 @@ pub fn read(file: &str) -> Result<Plan, CliError> {
     Ok(plan)
 }
 
+/// The case of this name.
+pub fn named<'a>(plan: &'a Plan, wanted: &str) -> Result<&'a PlannedCase, CliError> {
+    let named = plan.cases.iter().find(|case| case.name == wanted);
+    named.ok_or_else(|| {
+        let names: Vec<&str> = plan.cases.iter().map(|case| case.name.as_str()).collect();
+        let nearest = names
+            .iter()
+            .max_by(|a, b| strsim::jaro(a, wanted).total_cmp(&strsim::jaro(b, wanted)));
+        let nearest = nearest
+            .map(|name| format!(" Did you mean `{name}`?"))
+            .unwrap_or_default();
+        let (study, names) = (&plan.study, names.join(", "));
+        CliError::Input(format!(
+            "study {study} has no case `{wanted}`.{nearest} It has: {names}"
+        ))
+    })
+}
+
 /// Reads and plans a study and looks at what there is of it. Changes nothing.
 pub fn survey(file: &str, results: &Path) -> Result<Survey, CliError> {
     let plan = read(file)?;
@@ -100,10 +119,11 @@ fn entry(store: &Store, planned: &PlannedCase) -> Entry {
 }
 
 fn reason(store: &Store, planned: &PlannedCase, id: &str, state: &State) -> String {
-    let over = if starts_over(state) {
-        "; starts over"
-    } else {
-        "; goes on from its last checkpoint"
+    let checkpoint = store.partial_folder(id).join(CHECKPOINT_FILE);
+    let over = match (starts_over(state), checkpoint.exists()) {
+        (true, _) => "; starts over",
+        (false, true) => "; goes on from its last checkpoint",
+        (false, false) => "; no checkpoint yet, starts over",
     };
     match state {
         State::Done(_) => "unchanged".to_owned(),
@@ -117,7 +137,7 @@ fn reason(store: &Store, planned: &PlannedCase, id: &str, state: &State) -> Stri
 
 fn at_step(attempt: &Option<Attempt>) -> String {
     match attempt.as_ref().and_then(|attempt| attempt.reached) {
-        Some(Reached { step, of, percent }) => format!(" at step {step} of {of} ({percent:.0} %)"),
+        Some(Reached { step, of, percent }) => format!(" after step {step} of {of} ({percent:.0} %)"),
         None => String::new(),
     }
 }

@@ -261,7 +261,10 @@ impl<'a> Queue<'a> {
 
 /// Whether the checkpoints of the attempt before are of no use: they may hold the blow-up, or another version wrote them.
 pub fn starts_over(state: &State) -> bool {
-    let version = |program: &Program| program.version != Program::current().version;
+    let version = |program: &Program| {
+        let current = Program::current();
+        (&program.version, &program.commit) != (&current.version, &current.commit)
+    };
     match state {
         State::Failed(failure) => {
             failure.exit_code == Some(i32::from(exit::PHYSICS_FAILED)) || version(&failure.program)

@@ -93,7 +93,10 @@ impl<'a> Pair<'a> {
         let displaced = gap + difference * spacing;
         let beyond = stretch > 0.0 && stretch * limit.unlisted * spacing - displaced >= limit.cutoff;
         match beyond {
-            true if displaced <= LOOSE * spacing => State::Tight,
+            // Two such neighbours in a row must not bring what lies beyond within the cutoff either.
+            true if displaced <= (LOOSE * spacing).min(0.5 * (stretch * limit.unlisted * spacing - limit.cutoff)) => {
+                State::Tight
+            }
             true => State::Loose,
             // Also where the positions are not numbers.
             false => State::Open,

@@ -1,8 +1,9 @@
 //! What a case will cost, before anything is computed.
 
+use super::census::Census;
+use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching};
 use crate::material::Material;
-use crate::mesh::element::Element;
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
 use crate::setup::{SetupError, material, mesh_plan, time_step};
@@ -16,7 +17,8 @@ pub struct Estimate {
     pub elements: u64,
     pub represented_atoms: u64,
     /// Share of the sites that are smaller elements than asked for, because no larger one fits there.
-    pub leftover_share: f64,
+    /// `None` where the specimen is too large to be meshed for this question.
+    pub leftover_share: Option<f64>,
     /// ps
     pub time_step: f64,
     /// Largest stable time step, ps.
@@ -33,13 +35,16 @@ const SECONDS_AN_ATOM: f64 = 6e-8;
 const SECONDS_A_TRIANGLE: f64 = 2e-7;
 const SECONDS_AN_EDGE_SITE: f64 = 1.5e-8;
 
+/// More steps than this are a slip in a rate, a mass or an end: they would take years.
+const MOST_STEPS: u64 = 1_000_000_000_000;
+
 /// The estimate of a case; an error is physical nonsense that only the mesh or the material reveals.
 pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
     let material = material(case)?;
     let plan = mesh_plan(case, &material)?;
     refuse_what_does_not_fit(&plan)?;
-    let mesh = Mesh::new(&plan);
-    let stability_limit = stability_limit(&mesh, &material)?;
+    let census = Census::of(&plan);
+    let stability_limit = stability_limit(&census, &material)?;
     let time_step = time_step(case).choose(stability_limit)?;
     let case::Loading::StrainRate { rate, .. } = case.loading;
     let until = Until {
@@ -48,31 +53,33 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
         ..Until::default()
     };
     let steps = until.steps(0, 0.0, time_step, rate);
-    let atoms = mesh.elements.len() - mesh.triangles;
-    let triangle = |size: i32| SECONDS_A_TRIANGLE + SECONDS_AN_EDGE_SITE * 3.0 * f64::from(size);
-    let coarse: f64 = mesh.elements[..mesh.triangles]
-        .iter()
-        .map(|element| triangle(element.size))
-        .sum();
+    if !(1..MOST_STEPS).contains(&steps) {
+        return Err(SetupError::Endless { steps, time_step });
+    }
+    // The constants are those of nearest neighbours, three bonds a site.
+    let reach = material.interaction.cutoff() / material.spacing;
+    let bonds = triangular::half_vectors_within(reach).len() as f64 / 3.0;
+    let of_element = |size: i32| match size {
+        1 => SECONDS_AN_ATOM * bonds,
+        _ => SECONDS_A_TRIANGLE + SECONDS_AN_EDGE_SITE * 3.0 * f64::from(size) * bonds,
+    };
     Ok(Estimate {
-        nodes: mesh.node_count() as u64,
-        elements: mesh.elements.len() as u64,
-        represented_atoms: mesh.sites.len() as u64,
-        leftover_share: leftover_share(&mesh, &plan),
+        nodes: census.node_count(),
+        elements: census.element_count(),
+        represented_atoms: census.sites,
+        leftover_share: census.leftover_share,
         time_step,
         stability_limit,
         steps,
-        memory_bytes: memory(&mesh),
-        seconds: (coarse + SECONDS_AN_ATOM * atoms as f64) * steps as f64,
+        memory_bytes: census.memory(),
+        seconds: census.weigh(of_element) * steps as f64,
     })
 }
 
 /// The stability limit of the perfect crystal in this mesh, ps. The bound goes element by element, so each size is
 /// looked at in a small specimen of its own.
-fn stability_limit(mesh: &Mesh, material: &Material) -> Result<f64, SolverError> {
-    let mut sizes: Vec<i32> = mesh.elements.iter().map(|element| element.size).collect();
-    sizes.dedup();
-    let limits = sizes.into_iter().map(|size| {
+fn stability_limit(census: &Census, material: &Material) -> Result<f64, SolverError> {
+    let limits = census.elements.iter().map(|&(size, _)| {
         let block = size.max(3);
         let layout = Layout {
             block,
@@ -105,35 +112,12 @@ fn stability_limit(mesh: &Mesh, material: &Material) -> Result<f64, SolverError>
         .try_fold(f64::INFINITY, |least, limit| Ok(least.min(limit?)))
 }
 
-/// Share of the sites that lie in smaller elements than their region asks for.
-fn leftover_share(mesh: &Mesh, plan: &Plan) -> f64 {
-    let wanted: Vec<i32> = plan
-        .regions
-        .iter()
-        .map(|region| i32::from(region.element))
-        .chain([i32::from(plan.element)])
-        .collect();
-    let leftover = mesh.elements.iter().filter(|element| !wanted.contains(&element.size));
-    leftover.map(Element::site_count).sum::<usize>() as f64 / mesh.sites.len() as f64
-}
-
-/// Bytes that a solver of this mesh holds: nodes, sites, triangles with their interfaces, atoms with their partners.
-fn memory(mesh: &Mesh) -> u64 {
-    let [nodes, sites, triangles] = [mesh.node_count(), mesh.sites.len(), mesh.triangles];
-    let atoms = mesh.elements.len() - triangles;
-    (120 * nodes + 8 * sites + 1100 * triangles + 200 * atoms) as u64
-}
-
 /// Refuses a mesh that would not fit into what is free of this machine's memory, before it is made.
 pub fn refuse_what_does_not_fit(plan: &Plan) -> Result<(), SetupError> {
     const GIBIBYTE: f64 = 1_073_741_824.0;
-    let sites = plan.layout.site_count();
-    let per_site = if plan.element == 1 {
-        330.0
-    } else {
-        12.0 + 2000.0 / f64::from(plan.element).powi(2)
-    };
-    let needed = sites as f64 * per_site / GIBIBYTE;
+    let census = Census::by_area(plan);
+    let sites = census.sites;
+    let needed = census.memory() as f64 / GIBIBYTE;
     match free_memory() {
         Some(present) if needed > present / GIBIBYTE => Err(SetupError::TooLarge {
             sites,

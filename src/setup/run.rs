@@ -24,6 +24,9 @@ pub struct Finished {
     pub cost: Cost,
 }
 
+/// More threads than this on every core bring a machine to a halt; it leaves room for tests of many threads.
+const MOST_THREADS_A_CORE: u32 = 32;
+
 /// Why a case was not computed.
 #[derive(Debug, thiserror::Error)]
 pub enum RunCaseError {
@@ -47,6 +50,11 @@ pub fn run_case(
     tell: &mut (dyn FnMut(&Progress) + Send),
     warn: &mut (dyn FnMut(&str) + Send),
 ) -> Result<Finished, RunCaseError> {
+    let cores = std::thread::available_parallelism().map_or(1, usize::from) as u32;
+    if threads > MOST_THREADS_A_CORE * cores {
+        let why = format!("this machine has {cores} cores");
+        return Err(RunCaseError::Threads { threads, why });
+    }
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads as usize).build();
     let pool = pool.map_err(|error| RunCaseError::Threads {
         threads,

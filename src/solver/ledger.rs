@@ -53,7 +53,8 @@ impl Ledger {
     /// Balances the energies of a moment and remembers the largest imbalance.
     pub fn balance(&mut self, measure: &Measure, kinetic: f64) -> Balance {
         let potential = measure.energy - self.initial_potential;
-        let cutoff_release = self.jump * (measure.pairs - self.initial_pairs);
+        // Adding zero turns a negative zero into zero.
+        let cutoff_release = self.jump * (measure.pairs - self.initial_pairs) + 0.0;
         let imbalance = (kinetic - self.initial_kinetic + potential - self.work - cutoff_release).abs();
         self.peak_imbalance = self.peak_imbalance.max(imbalance);
         Balance {

@@ -63,16 +63,12 @@ impl Solver {
         Ok(())
     }
 
-    /// Reference position of the fastest node: nm from the left edge, and from the crack plane.
+    /// Where the fastest node was before the loading.
     fn fastest_node(&self) -> [f64; 2] {
         let [x, y] = &self.state.velocity;
         let squared = |node: usize| x[node] * x[node] + y[node] * y[node];
         let fastest = (0..self.state.nodes()).max_by(|&a, &b| squared(a).total_cmp(&squared(b)));
-        let mesh = self.forces.mesh();
-        let [x, y] = mesh.node_positions();
-        fastest.map_or([f64::NAN; 2], |node| {
-            [x[node] - self.setting.left_x, y[node] - mesh.middle_height()]
-        })
+        self.reference_place(fastest.unwrap_or_default())
     }
 
     fn probe_row(&mut self, measure: &Measure) -> Probe {

@@ -47,7 +47,7 @@ impl Until {
             .map(|strain| strain / rate)
             .unwrap_or(f64::INFINITY)
             .min(self.time.unwrap_or(f64::INFINITY));
-        step + ((end - time) / time_step).round().max(0.0) as u64
+        step.saturating_add(((end - time) / time_step).round().max(0.0) as u64)
     }
 }
 
@@ -112,5 +112,91 @@ impl Watch {
             .arrest
             .filter(|&end| set_out && still >= end)
             .map(|_| Ending::Arrest(still))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A notch of 10 nm in atoms 0.25 nm apart; the crack has set out beyond 10.75 nm.
+    fn watch() -> Watch {
+        let setting = Setting {
+            spacing: 0.25,
+            crack_length: 10.0,
+            element_at_crack: 1,
+            ..setting()
+        };
+        Watch::new(&setting)
+    }
+
+    fn setting() -> Setting {
+        Setting {
+            spacing: 1.0,
+            length: 100.0,
+            left_x: 0.0,
+            height: 50.0,
+            crack_row: Some(30),
+            crack_length: 10.0,
+            strain_rate: 1e-3,
+            thickness: 1.0,
+            longitudinal_speed: 9.0,
+            transverse_speed: 5.2,
+            rayleigh_speed: 4.8,
+            young_modulus: 66.0,
+            poisson_ratio: 1.0 / 3.0,
+            fracture_energy: 1.8,
+            element_at_crack: 1,
+            nodes: 1,
+            elements: 1,
+            represented_atoms: 1,
+        }
+    }
+
+    #[test]
+    fn the_strain_and_the_time_count_within_half_a_step() {
+        let until = Until {
+            strain: Some(0.02),
+            time: Some(25.0),
+            ..Until::default()
+        };
+        let watch = watch();
+        assert_eq!(watch.ending(&until, 19.0, 0.019, 0.2), None);
+        assert_eq!(watch.ending(&until, 19.95, 0.01995, 0.2), Some(Ending::Strain(0.01995)));
+        let until = Until {
+            time: Some(15.0),
+            ..until
+        };
+        assert_eq!(watch.ending(&until, 14.95, 0.01495, 0.2), Some(Ending::Time(14.95)));
+    }
+
+    #[test]
+    fn the_crack_length_is_that_of_the_farthest_tip() {
+        let until = Until {
+            strain: Some(0.5),
+            crack_length: Some(30.0),
+            ..Until::default()
+        };
+        let mut watch = watch();
+        watch.follow(29.0, 40.0);
+        assert_eq!(watch.ending(&until, 40.0, 0.04, 0.2), None);
+        watch.follow(30.5, 41.0);
+        watch.follow(20.0, 42.0);
+        assert_eq!(watch.ending(&until, 42.0, 0.042, 0.2), Some(Ending::CrackLength(30.5)));
+    }
+
+    #[test]
+    fn a_crack_is_arrested_only_after_it_has_set_out() {
+        let until = Until {
+            strain: Some(0.5),
+            arrest: Some(20.0),
+            ..Until::default()
+        };
+        let mut watch = watch();
+        watch.follow(10.5, 5.0);
+        assert_eq!(watch.ending(&until, 90.0, 0.09, 0.2), None, "it only opened a bond");
+        watch.follow(15.0, 91.0);
+        assert_eq!(watch.ending(&until, 100.0, 0.1, 0.2), None);
+        assert_eq!(watch.ending(&until, 111.0, 0.111, 0.2), Some(Ending::Arrest(20.0)));
     }
 }

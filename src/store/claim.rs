@@ -14,6 +14,7 @@ use super::{Attempt, ExitState, Failure, Manifest, Outcome, Program, Reached, St
 /// Locked by the solver as long as it writes into a folder, even when the one who started it is gone.
 pub const SOLVER_LOCK: &str = ".solver-lock";
 
+const CASE: &str = "case.yaml";
 const OUTCOME: &str = "outcome.json";
 const MANIFEST: &str = "manifest.json";
 
@@ -79,7 +80,7 @@ impl Claim {
         fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
         files::remove(&folder.join("failure.json"))?;
         files::remove(&folder.join(OUTCOME))?;
-        files::write(&folder.join("case.yaml"), case_text.as_bytes())?;
+        files::write(&folder.join(CASE), case_text.as_bytes())?;
         self.attempt.program = Program::current();
         self.attempt.attempts += 1;
         self.wall_seconds_before = self.attempt.wall_seconds;
@@ -206,6 +207,10 @@ impl FolderLock {
         let start = Instant::now();
         loop {
             if let Some(lock) = files::try_lock(&path)? {
+                // Only solvers write these while a solver has the folder.
+                for name in [CASE, OUTCOME] {
+                    files::remove_asides(folder, name)?;
+                }
                 return Ok(Some(FolderLock { _lock: lock }));
             }
             if start.elapsed() >= patience {

@@ -3,7 +3,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::claim::SOLVER_LOCK;
-use super::{Store, StoreError, files};
+use super::{MARK, Store, StoreError, files};
 
 /// Something that was taken away, or left because somebody works on it.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -37,10 +37,8 @@ impl Store {
                 files::remove(&link)?;
             }
         }
-        for name in entries(&self.root)? {
-            if name.ends_with(files::ASIDE) {
-                files::remove(&self.root.join(name))?;
-            }
+        if self.root.exists() {
+            files::remove_asides(&self.root, MARK)?;
         }
         Ok(removed)
     }

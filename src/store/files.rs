@@ -70,6 +70,19 @@ pub fn sync(path: &Path) -> Result<(), StoreError> {
         .map_err(StoreError::write(path))
 }
 
+/// Removes what a killed process was just writing in place of `name`.
+pub fn remove_asides(folder: &Path, name: &str) -> Result<(), StoreError> {
+    let stem = format!("{}.", name.split('.').next().unwrap_or(name));
+    let is_aside = |found: &str| found.starts_with(&stem) && found.ends_with(ASIDE);
+    for entry in fs::read_dir(folder).map_err(StoreError::read(folder))? {
+        let entry = entry.map_err(StoreError::read(folder))?;
+        if entry.file_name().to_str().is_some_and(is_aside) {
+            remove(&entry.path())?;
+        }
+    }
+    Ok(())
+}
+
 /// Removes a file or a folder with all that is in it; that it is not there is no error.
 pub fn remove(path: &Path) -> Result<(), StoreError> {
     let removed = match fs::symlink_metadata(path) {

@@ -44,7 +44,7 @@ pub enum PotentialShape {
     LennardJones { epsilon: f64, sigma: f64 },
     /// depth ((1 - exp(-decay (r - distance)))^2 - 1); eV, 1/nm, nm.
     Morse { depth: f64, decay: f64, distance: f64 },
-    /// stiffness/2 (r - distance)^2 - depth up to the cutoff, where the bond snaps; eV/nm^2, nm, eV.
+    /// stiffness/2 (r - distance)^2 up to the cutoff, where the bond snaps; eV/nm^2, nm.
     HarmonicBond { stiffness: f64, distance: f64 },
 }
 

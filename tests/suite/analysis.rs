@@ -270,7 +270,27 @@ fn the_stress_intensity_of_an_exact_field_is_recovered() {
         profiles,
         bonds: Vec::new(),
     };
-    let fit = near_tip(&series, 0, tip, &setting).unwrap();
+    let fit = near_tip(
+        &series,
+        0,
+        Tip {
+            x: tip,
+            y: 0.0,
+            arc_length: tip,
+        },
+        &setting,
+    )
+    .unwrap();
+    let kinked = Tip {
+        x: tip,
+        y: 3.0 * setting.spacing,
+        arc_length: tip,
+    };
+    assert_eq!(
+        near_tip(&series, 0, kinked, &setting),
+        None,
+        "the profile is not ahead of a tip off its plane"
+    );
     assert!((fit.value / wanted - 1.0).abs() < 0.01, "{fit:?}");
     assert!(fit.from >= 4.0 * SPACING && fit.bins > 10, "{fit:?}");
 }

@@ -158,6 +158,15 @@ impl Program {
     }
 }
 
+impl Drop for Program {
+    /// A test that fails leaves nothing at work.
+    fn drop(&mut self) {
+        if !self.has_ended() {
+            self.kill();
+        }
+    }
+}
+
 impl Said {
     #[track_caller]
     fn succeeded(self) -> Said {

@@ -238,7 +238,10 @@ fn a_blow_up_is_reported_with_step_and_advice() {
     let mut solver = Solver::new(mesh, material, loading, settings).unwrap();
     let error = solver.run(&mut Keeper::default(), &AtomicBool::new(false)).unwrap_err();
     let text = error.to_string();
-    assert!(text.starts_with("step ") && text.contains("try a "), "{text}");
+    assert!(
+        text.starts_with("step ") && text.contains("x = ") && text.contains("try a "),
+        "{text}"
+    );
 }
 
 #[test]

@@ -24,6 +24,14 @@ fn yaml_files(folder: &str) -> Vec<PathBuf> {
     files
 }
 
+/// Every study that is right: those that are shipped, and those of the tests.
+fn right_studies() -> Vec<PathBuf> {
+    ["studies", "tests/studies", "tests/study_files/good"]
+        .into_iter()
+        .flat_map(yaml_files)
+        .collect()
+}
+
 fn check(path: &Path) -> Result<cgaft::plan::Plan, StudyError> {
     plan(&study::read(path.to_str().unwrap())?)
 }
@@ -100,10 +108,8 @@ fn every_mistake_says_what_to_do_next() {
 }
 
 #[test]
-fn every_good_file_gives_cases() {
-    let files = yaml_files("tests/study_files/good");
-    assert!(!files.is_empty());
-    for path in files {
+fn every_right_study_gives_cases() {
+    for path in right_studies() {
         let plan = check(&path).unwrap_or_else(|error| panic!("{}\n{error}", path.display()));
         assert!(!plan.cases.is_empty());
     }
@@ -112,10 +118,9 @@ fn every_good_file_gives_cases() {
 #[test]
 fn every_study_fits_the_schema() {
     let validator = jsonschema::draft7::new(&study::schema()).unwrap();
-    let files = yaml_files("studies")
+    let texts = right_studies()
         .into_iter()
-        .chain(yaml_files("tests/study_files/good"));
-    let texts = files.map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap()));
+        .map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap()));
     for (name, text) in texts.chain([("starter".to_owned(), starter("fresh"))]) {
         let options = serde_saphyr::options! { strict_booleans: true };
         let value: serde_json::Value = serde_saphyr::from_str_with_options(&text, options).unwrap();
@@ -202,10 +207,7 @@ fn the_starter_study_is_right_as_it_is() {
 #[test]
 fn a_written_case_reads_back_to_the_same_bits() {
     let folder = tempfile::tempdir().unwrap();
-    let plans = yaml_files("studies")
-        .into_iter()
-        .chain(yaml_files("tests/study_files/good"))
-        .map(|path| check(&path).unwrap());
+    let plans = right_studies().into_iter().map(|path| check(&path).unwrap());
     for planned in plans.flat_map(|plan| plan.cases) {
         let path = folder.path().join("case.yaml");
         fs::write(&path, write_case(&planned)).unwrap();

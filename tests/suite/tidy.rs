@@ -12,7 +12,7 @@ const FLOORS: [&[&str]; 9] = [
     &["forces", "integrator", "loading", "domain", "analysis", "executor"],
     &["solver", "relaxation"],
     &["record"],
-    &["setup", "report"],
+    &["setup", "export", "report"],
     &["cli"],
 ];
 

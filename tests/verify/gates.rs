@@ -13,18 +13,17 @@ mod symmetry;
 mod torus;
 mod toughness;
 
-#[path = "../suite/specimens.rs"]
-mod specimens;
-
 use cgaft::forces::Planes;
 use cgaft::material::Material;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::AtCutoff;
 
+use crate::verify::specimens::lennard_jones;
+
 /// Nearest neighbours only, with energy and force of the pairs that part going smoothly to zero.
 fn smooth() -> Material {
-    specimens::lennard_jones(1.9, AtCutoff::Smooth { from: 1.5 })
+    lennard_jones(1.9, AtCutoff::Smooth { from: 1.5 })
 }
 
 const SMOOTH: &str = "smooth 1.5 to 1.9";

@@ -10,8 +10,8 @@ use cgaft::mesh::Mesh;
 use cgaft::potential::AtCutoff;
 use cgaft::relaxation::bond_strength;
 
-use super::specimens::{all_materials, all_meshes, displaced, lennard_jones, nearest_neighbours};
 use super::{SMOOTH, block_mesh, smooth, zeros};
+use crate::verify::specimens::{all_materials, all_meshes, displaced, lennard_jones, nearest_neighbours};
 use crate::verify::table::{Chapter, Gate};
 
 const ROWS: [i32; 2] = [6, 10];

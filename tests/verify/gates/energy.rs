@@ -5,8 +5,8 @@ use cgaft::material::Material;
 use cgaft::mesh::Mesh;
 use cgaft::relaxation::bond_strength;
 
-use super::specimens::{Noise, all_materials, all_meshes, states};
 use super::{largest, zeros};
+use crate::verify::specimens::{Noise, all_materials, all_meshes, states};
 use crate::verify::table::{Chapter, Gate};
 
 /// Energies of some 1e4 bonds carry 1e-12, a difference over 1e-4 spacings 1e-8; where the switch of a smooth cutoff

@@ -10,8 +10,8 @@ use cgaft::mesh::Mesh;
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::{Moment, Observer, Progress, Settings, Solver, TimeStep, Until};
 
-use super::specimens::slab;
 use super::{SMOOTH, block_mesh, smooth};
+use crate::verify::specimens::slab;
 use crate::verify::table::{Chapter, Gate};
 
 /// Motion so slow leaves central differences an error of 1e-10. The work of the grips summed by any rule poorer than the

@@ -1,0 +1,62 @@
+//! An all-atom case as LAMMPS input: a script and a data file.
+//!
+//! `units lj` multiplies by no conversion constants, so lengths stand there in nm, energies in eV, times in ps and
+//! masses in eV ps^2/nm^2: LAMMPS computes with the very numbers of this program. Nothing is reduced, and nothing is
+//! rounded. (`units metal` would put LAMMPS' own constants of nature between the two.)
+
+mod atom_types;
+mod data;
+mod pair_styles;
+mod script;
+
+pub use script::Motion;
+
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::study::case::Case;
+use atom_types::AtomTypes;
+use pair_styles::PairStyles;
+
+/// Why a case has no equal in LAMMPS.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ExportError {
+    #[error(
+        "its elements have {element} atoms an edge, and LAMMPS knows single atoms only; \
+         export a case with `resolution: {{element: 1}}`"
+    )]
+    NotAtoms { element: u32 },
+    #[error("LAMMPS has no pair style that equals {what}; it has those that equal {available}")]
+    NoPairStyle {
+        what: &'static str,
+        available: &'static str,
+    },
+}
+
+/// What LAMMPS must know of a specimen. Atom k of LAMMPS is node k - 1 of the mesh.
+pub struct Model<'a> {
+    mesh: &'a Mesh,
+    /// eV ps^2/nm^2
+    site_mass: f64,
+    styles: PairStyles,
+    types: AtomTypes,
+}
+
+impl<'a> Model<'a> {
+    pub fn new(case: &Case, material: &Material, mesh: &'a Mesh) -> Result<Self, ExportError> {
+        let element = case.resolution.element;
+        if element != 1 {
+            return Err(ExportError::NotAtoms { element });
+        }
+        Ok(Self {
+            mesh,
+            site_mass: material.site_mass,
+            styles: PairStyles::new(&case.material.potential, material)?,
+            types: AtomTypes::new(mesh, material.interaction.cutoff() / material.spacing),
+        })
+    }
+}
+
+/// A number that reads back to the bit: 17 digits.
+fn exact(number: f64) -> String {
+    format!("{number:.16e}")
+}

@@ -1,0 +1,144 @@
+//! How many elements of each size a specimen has.
+
+use crate::lattice::triangular;
+use crate::mesh::element::Element;
+use crate::mesh::region::Shape;
+use crate::mesh::{Mesh, Plan};
+
+/// Elements by size, and what they amount to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Census {
+    /// Size (1: atom) and number, by falling size.
+    pub elements: Vec<(i32, f64)>,
+    pub sites: u64,
+    /// Share of the sites in elements smaller than asked for; `None` where nobody has laid the elements.
+    pub leftover_share: Option<f64>,
+}
+
+/// Specimens with more sites than this are not meshed to be counted.
+const MESHED: u64 = 30_000_000;
+
+impl Census {
+    /// Counts the elements of a mesh, or in a specimen too large to be meshed for a question those that its area has
+    /// room for.
+    pub fn of(plan: &Plan) -> Self {
+        if plan.layout.site_count() > MESHED {
+            Self::by_area(plan)
+        } else {
+            Self::counted(plan)
+        }
+    }
+
+    fn counted(plan: &Plan) -> Self {
+        let mesh = Mesh::new(plan);
+        let mut elements: Vec<(i32, f64)> = Vec::new();
+        for element in &mesh.elements {
+            match elements.last_mut() {
+                Some((size, number)) if *size == element.size => *number += 1.0,
+                _ => elements.push((element.size, 1.0)),
+            }
+        }
+        let wanted: Vec<i32> = sizes(plan);
+        let leftover = mesh.elements.iter().filter(|element| !wanted.contains(&element.size));
+        let leftover = leftover.map(Element::site_count).sum::<usize>() as f64 / mesh.sites.len() as f64;
+        Self {
+            elements,
+            sites: mesh.sites.len() as u64,
+            leftover_share: Some(leftover),
+        }
+    }
+
+    /// From areas alone; the finest regions count first, and what they leave is for the coarser ones.
+    pub fn by_area(plan: &Plan) -> Self {
+        let spacing = plan.spacing;
+        let length = plan.layout.length() * spacing;
+        let height = f64::from(plan.layout.lattice_rows()) * triangular::ROW_HEIGHT * spacing;
+        let mut regions: Vec<_> = plan.regions.iter().collect();
+        regions.sort_by_key(|region| region.element);
+        let mut rest = 1.0;
+        let mut elements = Vec::new();
+        let sites = plan.layout.site_count();
+        let mut add = |size: u16, share: f64| {
+            let held = f64::from(size) * (f64::from(size) + 1.0) / 2.0;
+            elements.push((i32::from(size), share * sites as f64 / held));
+        };
+        for region in regions {
+            let area = match region.shape {
+                Shape::Band { half_width } => length * (2.0 * half_width).min(height),
+                Shape::Box { from, to } => (to[0] - from[0]).min(length) * (to[1] - from[1]).min(height),
+                Shape::Disc { radius, .. } => std::f64::consts::PI * radius * radius,
+            };
+            let share = (area / (length * height)).clamp(0.0, rest);
+            rest -= share;
+            add(region.element, share);
+        }
+        add(plan.element, rest);
+        elements.sort_by_key(|&(size, _)| -size);
+        Self {
+            elements,
+            sites,
+            leftover_share: None,
+        }
+    }
+
+    pub fn element_count(&self) -> u64 {
+        self.sum(|_| 1.0)
+    }
+
+    pub fn node_count(&self) -> u64 {
+        self.sum(|size| if size == 1 { 1.0 } else { 3.0 })
+    }
+
+    /// Bytes that a solver holds: nodes, sites, triangles with their interfaces, atoms with their partners.
+    pub fn memory(&self) -> u64 {
+        8 * self.sites + self.sum(|size| if size == 1 { 320.0 } else { 1460.0 })
+    }
+
+    /// Sum over all elements of a number for each size.
+    pub fn sum(&self, each: impl Fn(i32) -> f64) -> u64 {
+        self.weigh(each).round() as u64
+    }
+
+    pub fn weigh(&self, each: impl Fn(i32) -> f64) -> f64 {
+        self.elements.iter().map(|&(size, number)| number * each(size)).sum()
+    }
+}
+
+/// The sizes that a plan asks for.
+fn sizes(plan: &Plan) -> Vec<i32> {
+    let regions = plan.regions.iter().map(|region| i32::from(region.element));
+    regions.chain([i32::from(plan.element)]).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::region::Region;
+    use crate::mesh::sites::Layout;
+
+    #[test]
+    fn areas_tell_the_counts_of_a_mesh_within_a_tenth() {
+        // The border of a band runs along elements, so that a band is up to an element row wider than asked for.
+        let layout = Layout {
+            block: 10,
+            rows: 40,
+            triangles: 101,
+        };
+        let band = Region {
+            shape: Shape::Band { half_width: 17.0 },
+            element: 1,
+        };
+        let plan = Plan {
+            layout,
+            element: 10,
+            regions: vec![band],
+            crack_length: None,
+            grip_rows: 10,
+            spacing: 0.25,
+        };
+        let [counted, by_area] = [Census::counted(&plan), Census::by_area(&plan)];
+        assert_eq!(counted.sites, by_area.sites);
+        let ratio = by_area.node_count() as f64 / counted.node_count() as f64;
+        assert!((0.9..1.1).contains(&ratio), "{ratio}");
+    }
+}
