@@ -11,7 +11,7 @@ PREFIX ?=
 help:
 	@echo 'make quickstart   build, then run studies/quickstart.yaml and build its report'
 	@echo 'make test         build, then run all fast tests'
-	@echo 'make verify       the long verification: the same specimens in LAMMPS, which it installs'
+	@echo 'make verify       the long verification: closed forms, and the same specimens in LAMMPS, which it installs; writes docs/verification.md'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
 	@echo 'make schema       write schemas/study.schema.json again from the types'
@@ -29,7 +29,7 @@ test: test-setup
 # The programs are built first, so that the verification has them whatever was built before.
 verify: build
 	@.ci/packages lammps
-	$(CARGO) test --release --locked --test verify
+	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test verify
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \

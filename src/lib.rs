@@ -13,6 +13,7 @@ pub mod mesh;
 pub mod plan;
 pub mod potential;
 pub mod record;
+pub mod relaxation;
 pub mod report;
 pub mod setup;
 pub mod solver;

@@ -7,6 +7,7 @@ mod suite {
     mod executor;
     mod forces;
     mod record;
+    mod relaxation;
     mod report;
     mod solver;
     mod specimens;

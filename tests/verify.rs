@@ -1,8 +1,9 @@
 //! What takes long or needs other programs to verify: `make verify`, no part of `make test`.
 
 mod verify {
+    mod gates;
     mod lammps;
     #[path = "../suite/specimens.rs"]
-    #[allow(dead_code, reason = "the suite uses the rest")]
     mod specimens;
+    mod table;
 }

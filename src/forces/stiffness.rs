@@ -34,6 +34,19 @@ impl Forces {
         Ok((0..chunks).into_par_iter().map(of_chunk).reduce(|| 0.0, f64::max))
     }
 
+    /// Upper bound of every element's stiffness in the current state, eV/nm^2: with these for masses no frequency is
+    /// above 1.
+    pub fn stiffness_bounds(&mut self, position: &Planes) -> Result<Vec<f64>, ForceError> {
+        self.refresh(position)?;
+        self.contacts.place_sites(&self.mesh, position);
+        let of_element = |element: usize| {
+            let stiffness = self.element_stiffness(element, position);
+            largest_eigenvalue(&stiffness, self.mesh.elements[element].node_count(), 1.0, 0.0)
+        };
+        let elements = (0..self.mesh.elements.len()).into_par_iter();
+        Ok(elements.with_min_len(CHUNK).map(of_element).collect())
+    }
+
     /// Bound of an element's stiffness, rows by node and component; an atom fills the first two.
     fn element_stiffness(&self, element: usize, position: &Planes) -> Matrix6<f64> {
         let shape = &self.mesh.elements[element];

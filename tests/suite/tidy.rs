@@ -10,7 +10,7 @@ const FLOORS: [&[&str]; 9] = [
     &["mesh", "material", "plan"],
     &["state", "store"],
     &["forces", "integrator", "loading", "domain", "analysis", "executor"],
-    &["solver"],
+    &["solver", "relaxation"],
     &["record"],
     &["setup", "export", "report"],
     &["cli"],

@@ -1,0 +1,180 @@
+//! Static equilibrium: the nodes that are free to move come to rest where no force is left on them.
+//!
+//! Two ways follow each other. FIRE, a damped motion that only ever goes downhill, leaves any start behind, also one
+//! where bonds are beyond their inflection. Near the minimum Newton's method with conjugate gradients takes over and
+//! goes down to the rounding of the forces; where it meets negative curvature, the damped motion goes on.
+//!
+//! Both work in coordinates in which every element is about equally stiff, so that a mesh may mix atoms with
+//! triangles of any size.
+
+mod fire;
+mod newton;
+mod vectors;
+
+use crate::forces::{ForceError, Forces, Planes};
+use crate::material::Material;
+use crate::state::State;
+use fire::Fire;
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Target {
+    /// Largest force left on a free node, over the strength of a bond.
+    pub residual: f64,
+    /// Most evaluations of the forces.
+    pub evaluations: u64,
+}
+
+impl Default for Target {
+    fn default() -> Self {
+        Self {
+            residual: 1e-10,
+            evaluations: 200_000,
+        }
+    }
+}
+
+/// What it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Rest {
+    /// Largest force left on a free node, over the strength of a bond.
+    pub residual: f64,
+    pub evaluations: u64,
+}
+
+/// Why a specimen did not come to rest.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum RelaxationError {
+    #[error(
+        "after {evaluations} evaluations of the forces {residual:.2e} of a bond's strength is left on a node, more than \
+         {wanted:.0e}: the specimen may be breaking; load it less, or allow more evaluations"
+    )]
+    NotAtRest {
+        evaluations: u64,
+        residual: f64,
+        wanted: f64,
+    },
+    #[error("{0}; start from a state nearer to the lattice")]
+    NoForces(#[from] ForceError),
+}
+
+/// Moves the free nodes of `state` to where their forces vanish; velocities play no part and end as zero there.
+/// Where the motion is prescribed (a mobility of zero), positions stay as they are.
+pub fn relax(forces: &mut Forces, state: &mut State, target: Target) -> Result<Rest, RelaxationError> {
+    Descent::new(forces, state, target)?.run()
+}
+
+/// Largest force with which a bond resists being stretched, eV/nm: what a residual force is measured by.
+pub fn bond_strength(material: &Material) -> f64 {
+    const SCAN: u32 = 1000;
+    let interaction = material.interaction;
+    let [start, end] = [interaction.minimum(), interaction.cutoff()];
+    let pull = |k: u32| {
+        let distance = start + (end - start) * f64::from(k) / f64::from(SCAN);
+        interaction.evaluate(distance * distance).slope * distance
+    };
+    (0..SCAN).map(pull).fold(0.0, f64::max)
+}
+
+/// Residual at which Newton's method first takes over from the damped motion.
+const NEWTON_FROM: f64 = 3e-3;
+
+/// Share of the residual that the damped motion removes where Newton's method could not.
+const DAMPED_SHARE: f64 = 0.1;
+
+/// A specimen on its way to rest. Its forces always belong to its positions.
+struct Descent<'a> {
+    forces: &'a mut Forces,
+    state: &'a mut State,
+    target: Target,
+    /// Inverse of every node's stiffness bound, nm^2/eV; zero where the motion is prescribed.
+    compliance: Planes,
+    strength: f64,
+    spacing: f64,
+    evaluations: u64,
+}
+
+impl<'a> Descent<'a> {
+    fn new(forces: &'a mut Forces, state: &'a mut State, target: Target) -> Result<Self, RelaxationError> {
+        let bounds = forces.stiffness_bounds(&state.position)?;
+        let [strength, spacing] = [bond_strength(forces.material()), forces.material().spacing];
+        let mut descent = Self {
+            compliance: compliance(forces, &bounds, &state.mobility),
+            forces,
+            state,
+            target,
+            strength,
+            spacing,
+            evaluations: 0,
+        };
+        descent.evaluate()?;
+        Ok(descent)
+    }
+
+    fn run(mut self) -> Result<Rest, RelaxationError> {
+        let mut damped_to = NEWTON_FROM.max(self.target.residual);
+        loop {
+            Fire::default().run(&mut self, damped_to)?;
+            while self.residual() > self.target.residual && self.newton_step()? {}
+            if self.residual() <= self.target.residual {
+                self.come_to_rest();
+                return Ok(Rest {
+                    residual: self.residual(),
+                    evaluations: self.evaluations,
+                });
+            }
+            damped_to = (DAMPED_SHARE * self.residual()).max(self.target.residual);
+        }
+    }
+
+    /// Forces at the present positions. Refuses when there were too many.
+    fn evaluate(&mut self) -> Result<(), RelaxationError> {
+        if self.evaluations >= self.target.evaluations {
+            return Err(RelaxationError::NotAtRest {
+                evaluations: self.evaluations,
+                residual: self.residual(),
+                wanted: self.target.residual,
+            });
+        }
+        self.evaluations += 1;
+        self.forces.compute(&self.state.position, &mut self.state.force)?;
+        Ok(())
+    }
+
+    fn residual(&self) -> f64 {
+        vectors::largest_free(&self.state.force, &self.compliance) / self.strength
+    }
+
+    fn come_to_rest(&mut self) {
+        for axis in 0..2 {
+            let free = self.state.velocity[axis].iter_mut().zip(&self.state.mobility[axis]);
+            free.filter(|(_, mobility)| **mobility > 0.0)
+                .for_each(|(velocity, _)| *velocity = 0.0);
+        }
+    }
+}
+
+/// The stiffness of an element bounds that of each of its nodes; where an element lost all its bonds, the softest
+/// other one serves.
+fn compliance(forces: &Forces, bounds: &[f64], mobility: &Planes) -> Planes {
+    let softest = bounds.iter().copied().filter(|&bound| bound > 0.0);
+    let softest = softest.fold(f64::INFINITY, f64::min);
+    let mesh = forces.mesh();
+    let mut compliance = [vec![0.0; mesh.node_count()], vec![0.0; mesh.node_count()]];
+    for (element, shape) in mesh.elements.iter().enumerate() {
+        let bound = if bounds[element] > 0.0 {
+            bounds[element]
+        } else {
+            softest
+        };
+        let first = mesh.first_node(element);
+        for node in first..first + shape.node_count() {
+            for axis in 0..2 {
+                if mobility[axis][node] > 0.0 {
+                    compliance[axis][node] = 1.0 / bound;
+                }
+            }
+        }
+    }
+    compliance
+}

@@ -1,0 +1,215 @@
+//! The crystal that specimens are made of, measured on specimens.
+//!
+//! A specimen's energy is that of its interior, its edges and its corners. Of four specimens, long and short, high and
+//! low, the edges and corners cancel, and what is left is the energy of interior alone.
+
+use cgaft::forces::Forces;
+use cgaft::lattice::triangular;
+use cgaft::material::{Elasticity, Material};
+use cgaft::mesh::Mesh;
+use cgaft::potential::AtCutoff;
+use cgaft::relaxation::bond_strength;
+
+use super::{SMOOTH, block_mesh, smooth, zeros};
+use crate::verify::specimens::{all_materials, all_meshes, displaced, lennard_jones, nearest_neighbours};
+use crate::verify::table::{Chapter, Gate};
+
+const ROWS: [i32; 2] = [6, 10];
+const TRIANGLES: [i32; 2] = [9, 17];
+
+/// Differences of the energy over 1e-3 leave h^4 of the sixth derivative, some 1e-7, and 1e-8 of rounding.
+const MODULUS: f64 = 1e-6;
+/// Counts of sites over lengths.
+const DENSITY: f64 = 1e-12;
+/// Rounding of energies of 1e4 over those of 50 bonds.
+const SURFACE: f64 = 1e-8;
+/// References are printed with six decimals.
+const PRINTED_SPACING: f64 = 5.1e-7;
+/// Rounding of energies over a strain of 1e-3, over C11.
+const PRESSURE: f64 = 1e-8;
+/// Interior forces cancel to rounding.
+const PATCH: f64 = 1e-10;
+
+/// What is interior of four specimens, for a quantity that edges and corners have a share in.
+fn interior(element: u16, material: &Material, quantity: impl Fn(&Mesh) -> f64) -> f64 {
+    let of = |rows: usize, triangles: usize| {
+        quantity(&block_mesh(
+            10,
+            ROWS[rows],
+            TRIANGLES[triangles],
+            element,
+            material.spacing,
+        ))
+    };
+    of(1, 1) - of(1, 0) - of(0, 1) + of(0, 0)
+}
+
+/// Area of the interior.
+fn area(material: &Material) -> f64 {
+    let length = f64::from((TRIANGLES[1] - TRIANGLES[0]) / 2 * 11);
+    let height = f64::from((ROWS[1] - ROWS[0]) * 10) * triangular::ROW_HEIGHT;
+    length * height * material.spacing * material.spacing
+}
+
+/// Energy of the interior over its area under the displacement gradient (xx, yy) and a shear u_x = xy y.
+fn energy_density(element: u16, material: &Material, [xx, yy, xy]: [f64; 3]) -> f64 {
+    let energy = |mesh: &Mesh| {
+        let position = displaced(mesh, |[x, y]| [xx * x + xy * y, yy * y]);
+        let mut forces = Forces::new(mesh.clone(), *material);
+        forces.measure(&position).expect("the state is sound").energy
+    };
+    interior(element, material, energy) / area(material)
+}
+
+/// Second derivative along a direction, without the fourth: differences over a step and over twice that.
+fn second(function: impl Fn(f64) -> f64) -> f64 {
+    const STEP: f64 = 1e-3;
+    let at = |steps: f64| function(steps * STEP);
+    (16.0 * (at(1.0) + at(-1.0)) - (at(2.0) + at(-2.0)) - 30.0 * at(0.0)) / (12.0 * STEP * STEP)
+}
+
+fn first(function: impl Fn(f64) -> f64) -> f64 {
+    const STEP: f64 = 1e-3;
+    let at = |steps: f64| function(steps * STEP);
+    (8.0 * (at(1.0) - at(-1.0)) - (at(2.0) - at(-2.0))) / (12.0 * STEP)
+}
+
+fn three_cutoffs() -> [(&'static str, Material); 3] {
+    [
+        ("nearest neighbours, 0.34 nm", nearest_neighbours()),
+        (
+            "truncated at 0.57 nm",
+            lennard_jones(0.57 / 0.2277, AtCutoff::Truncated),
+        ),
+        ("truncated at 2.5 sigma", lennard_jones(2.5, AtCutoff::Truncated)),
+    ]
+}
+
+#[test]
+fn elastic_constants_and_density_measured_on_specimens_are_those_of_the_lattice() {
+    let mut gate = Gate::new(Chapter::Crystal, "2 constants");
+    for (name, material) in three_cutoffs() {
+        let expected = Elasticity::of(&material);
+        for element in [1, 10] {
+            let setting = format!("{name}, n = {element}");
+            let along = |direction: [f64; 3]| {
+                second(|strain| energy_density(element, &material, direction.map(|part| part * strain)))
+            };
+            let [c11, c22, c66] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(along);
+            let c12 = 0.25 * (along([1.0, 1.0, 0.0]) - along([1.0, -1.0, 0.0]));
+            gate.within("C11", &setting, c11, expected.c11, MODULUS);
+            gate.within("C22 = C11", &setting, c22, expected.c11, MODULUS);
+            gate.within("C12", &setting, c12, expected.c12, MODULUS);
+            gate.within("C44 (C66 of the sheet)", &setting, c66, expected.c66, MODULUS);
+            if name.starts_with("nearest") {
+                let closed = 0.75 * 3f64.sqrt() * 72.0 / 2f64.cbrt();
+                gate.within("C11 = (3 sqrt 3/4) 72/2^(1/3)", &setting, c11, closed, MODULUS);
+                gate.within("C12 = C11/3", &setting, c12, closed / 3.0, MODULUS);
+            }
+            let mass = |mesh: &Mesh| mesh.lumped_masses().iter().sum::<f64>();
+            let density = interior(element, &material, mass) / area(&material);
+            let spacing = material.spacing;
+            let closed = 2.0 / (3f64.sqrt() * spacing * spacing);
+            gate.within("density 2/(sqrt 3 r0^2)", &setting, density, closed, DENSITY);
+        }
+    }
+    gate.close();
+}
+
+#[test]
+fn the_spacing_of_each_cutoff_is_the_reference_and_leaves_no_pressure() {
+    let mut gate = Gate::new(Chapter::Crystal, "1 spacing");
+    // validation: zero-pressure lattices of one, two and three shells.
+    for (cutoff, expected) in [(1.5, 1.122462), (2.0, 1.115934), (2.5, 1.113201)] {
+        let material = lennard_jones(cutoff, AtCutoff::Truncated);
+        let name = format!("truncated at {cutoff} sigma");
+        gate.near("r0", &name, material.spacing, expected, PRINTED_SPACING);
+        let pressure = first(|strain| energy_density(10, &material, [strain, strain, 0.0]));
+        gate.below(
+            "size of the pressure over C11",
+            &name,
+            pressure.abs() / Elasticity::of(&material).c11,
+            PRESSURE,
+        );
+    }
+    gate.close();
+}
+
+/// Energy, without what truncation releases, to part the interior of a specimen along its middle row, over its length.
+fn parting_energy(element: u16, material: &Material) -> f64 {
+    let jump = material.interaction.jump_at_cutoff();
+    let cost = |triangles: i32| {
+        let mesh = block_mesh(10, 6, triangles, element, material.spacing);
+        let middle = mesh.middle_height() / mesh.spacing;
+        let [whole, parted] = [0.0, 20.0].map(|gap| {
+            let position = displaced(&mesh, |[_, y]| [0.0, if y > middle { gap } else { 0.0 }]);
+            let mut forces = Forces::new(mesh.clone(), *material);
+            let measure = forces.measure(&position).expect("the state is sound");
+            measure.energy - jump * measure.pairs
+        });
+        parted - whole
+    };
+    let length = f64::from((TRIANGLES[1] - TRIANGLES[0]) / 2 * 11) * material.spacing;
+    (cost(TRIANGLES[1]) - cost(TRIANGLES[0])) / length
+}
+
+#[test]
+fn parting_a_specimen_along_a_row_costs_the_fracture_energy() {
+    let mut gate = Gate::new(Chapter::Crystal, "3 surface");
+    let two_wells = 2.0 / 2f64.powf(1.0 / 6.0);
+    for element in [1, 10] {
+        let of_smooth = parting_energy(element, &smooth());
+        let setting = format!("{SMOOTH}, n = {element}");
+        gate.within("2 gamma = 2/r0", &setting, of_smooth, two_wells, SURFACE);
+        for (name, material) in three_cutoffs() {
+            let setting = format!("{name}, n = {element}");
+            let found = parting_energy(element, &material);
+            gate.within(
+                "2 gamma less the release",
+                &setting,
+                found,
+                material.fracture_energy(),
+                SURFACE,
+            );
+        }
+    }
+    gate.close();
+}
+
+#[test]
+fn an_affine_strain_leaves_no_force_inside_any_mesh() {
+    let mut gate = Gate::new(Chapter::Crystal, "4 patch");
+    for (name, material) in all_materials() {
+        let uniform = [1, 4, 7, 10, 13, 20].map(|n| block_mesh(10, 8, 15, n, material.spacing));
+        let mixed = all_meshes(material.spacing)
+            .into_iter()
+            .map(|(_, mesh)| Mesh { cut: None, ..mesh });
+        let [mut worst, mut looked_at] = [0.0f64, 0.0];
+        for mesh in uniform.into_iter().chain(mixed) {
+            let position = displaced(&mesh, |[x, y]| [0.01 * x + 0.004 * y, -0.003 * x + 0.015 * y]);
+            let mut force = zeros(&mesh);
+            let mut forces = Forces::new(mesh.clone(), material);
+            forces.compute(&position, &mut force).expect("the state is sound");
+            let shells = triangular::vectors_within(1.05 * material.interaction.cutoff() / material.spacing);
+            let is_inside = |site: [i32; 2]| {
+                let mut neighbours = shells.iter().map(|v| [site[0] + v[0], site[1] + v[1]]);
+                neighbours.all(|site| mesh.sites.index(site).is_some())
+            };
+            for (element, shape) in mesh
+                .elements
+                .iter()
+                .enumerate()
+                .filter(|(_, e)| e.sites().all(is_inside))
+            {
+                for node in mesh.first_node(element)..mesh.first_node(element) + shape.node_count() {
+                    let size = force[0][node].abs().max(force[1][node].abs());
+                    worst = worst.max(size / bond_strength(&material));
+                    looked_at += 1.0;
+                }
+            }
+        }
+        assert!(looked_at > 5e3, "{name}: only {looked_at} nodes are inside");
+        gate.below("force inside over a bond's strength, 12 meshes", name, worst, PATCH);
+    }
+    gate.close();
+}
