@@ -63,6 +63,11 @@ fn columns(rows: &[Vec<String>], to_the_right: impl Fn(usize) -> bool) -> String
     text
 }
 
+/// "1 case", "2 cases".
+pub fn count(number: usize, word: &str) -> String {
+    format!("{number} {word}{}", if number == 1 { "" } else { "s" })
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -88,9 +93,4 @@ mod tests {
         assert_eq!(table(&rows), "case  nodes\nA        12\n");
         assert_eq!(list(&rows), "case  nodes\nA     12\n");
     }
-}
-
-/// "1 case", "2 cases".
-pub fn count(number: usize, word: &str) -> String {
-    format!("{number} {word}{}", if number == 1 { "" } else { "s" })
 }
