@@ -54,20 +54,44 @@ pub fn teller(style: Option<Style>, name: &str) -> Box<dyn FnMut(&Progress) + Se
     }
 }
 
-/// Lets the first message through, then one every so often.
-fn throttled(
-    every: Duration,
-    mut tell: impl FnMut(&Progress, &Pace) + Send + 'static,
-) -> Box<dyn FnMut(&Progress) + Send> {
-    let mut since: Option<(Pace, Instant)> = None;
-    Box::new(move |progress| {
-        let (pace, told) = match since {
+/// Lets the first message through, then one every so often, and at the end the last that was held back, so that
+/// whoever listens knows how far it came.
+fn throttled(every: Duration, tell: impl FnMut(&Progress, &Pace) + Send + 'static) -> Box<dyn FnMut(&Progress) + Send> {
+    let mut valve = Valve {
+        tell,
+        since: None,
+        held: None,
+    };
+    Box::new(move |progress| valve.take(progress, every))
+}
+
+/// What stands between many messages and few.
+struct Valve<F: FnMut(&Progress, &Pace)> {
+    tell: F,
+    since: Option<(Pace, Instant)>,
+    held: Option<(Progress, Pace)>,
+}
+
+impl<F: FnMut(&Progress, &Pace)> Valve<F> {
+    fn take(&mut self, progress: &Progress, every: Duration) {
+        let (pace, told) = match self.since {
             Some((pace, told)) => (pace, Some(told)),
             None => (Pace::starting_at(progress.percent), None),
         };
         if told.is_none_or(|told| told.elapsed() >= every) {
-            since = Some((pace, Instant::now()));
-            tell(progress, &pace);
+            self.since = Some((pace, Instant::now()));
+            self.held = None;
+            (self.tell)(progress, &pace);
+        } else {
+            self.held = Some((*progress, pace));
         }
-    })
+    }
+}
+
+impl<F: FnMut(&Progress, &Pace)> Drop for Valve<F> {
+    fn drop(&mut self) {
+        if let Some((progress, pace)) = self.held.take() {
+            (self.tell)(&progress, &pace);
+        }
+    }
 }
