@@ -39,6 +39,7 @@ check: lint test
 lint: setup
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --locked --all-targets -- -D warnings
+	$(CARGO) clippy --release --locked --test verify -- -D warnings
 	.ci/shared-crates
 
 schema: build

@@ -1,6 +1,6 @@
 //! Time of one step, in represented atoms a second: `cargo bench`.
 
-use cgaft::forces::Forces;
+use cgaft::forces::{Forces, Summation};
 use cgaft::loading::{Grip, Stretching};
 use cgaft::material::Material;
 use cgaft::mesh::sites::Layout;
@@ -47,6 +47,9 @@ fn solver(element: u16) -> Solver {
     let loading = Stretching::new(&mesh, 1e-4, Grip::Clamped, true);
     let settings = Settings {
         time_step: TimeStep::Auto { fraction: 0.5 },
+        summation: Summation::Exact,
+        consistent_mass: 0.0,
+        relax: false,
         until: Until::default(),
         probe_every: f64::INFINITY,
         snapshot_every: None,

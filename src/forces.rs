@@ -15,9 +15,11 @@ mod interface;
 mod measure;
 pub mod referee;
 mod stiffness;
+mod summation;
 
 pub use affine::{Affine, site_position};
 pub use measure::Measure;
+pub use summation::Summation;
 
 use std::time::{Duration, Instant};
 
@@ -31,6 +33,7 @@ use crate::potential::{CutPotential, PairShape, with_law};
 use bulk::BulkBonds;
 use contact::Contacts;
 use interface::{InterfaceForce, State};
+use summation::SampledStrings;
 
 /// Node positions or forces: x and y, one entry a node.
 pub type Planes = [Vec<f64>; 2];
@@ -59,7 +62,9 @@ impl ForceError {
 pub struct Forces {
     mesh: Mesh,
     material: Material,
+    summation: Summation,
     interfaces: Interfaces,
+    strings: SampledStrings,
     bulk: BulkBonds,
     /// How the interfaces stand; a state is never left for a tighter one.
     states: Vec<State>,
@@ -80,13 +85,19 @@ impl Forces {
     /// up does so within a few steps, and would make the neighbour search compare all sites with all others.
     const FARTHEST: f64 = 100.0;
 
+    /// Forces that sum every bond.
     pub fn new(mesh: Mesh, material: Material) -> Self {
+        Self::with_summation(mesh, material, Summation::Exact)
+    }
+
+    pub fn with_summation(mesh: Mesh, material: Material, summation: Summation) -> Self {
         let cutoff = material.interaction.cutoff() / material.spacing;
         let listed = cutoff + Self::LISTED_BEYOND_CUTOFF;
         let interfaces = Interfaces::new(&mesh, listed);
         let state = |severed: bool| if severed { State::Open } else { State::Tight };
         let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
-        let bulk = BulkBonds::new(&mesh, listed);
+        let bulk = BulkBonds::new(&mesh, listed, summation);
+        let strings = SampledStrings::new(&interfaces, summation);
         let interface_forces = vec![InterfaceForce::default(); interfaces.pairs.len()];
         let reference = mesh.node_positions();
         let largest = reference
@@ -96,7 +107,9 @@ impl Forces {
         Self {
             mesh,
             material,
+            summation,
             interfaces,
+            strings,
             bulk,
             states,
             contacts: Contacts::default(),
@@ -170,7 +183,7 @@ impl Forces {
             unlisted: self.unlisted_length(),
             spacing: self.material.spacing,
         };
-        let (mesh, interfaces, states) = (&self.mesh, &self.interfaces, &self.states);
+        let (mesh, interfaces, states, strings) = (&self.mesh, &self.interfaces, &self.states, &self.strings);
         let changed: Vec<(usize, State)> = self
             .interface_forces
             .par_chunks_mut(CHUNK)
@@ -183,12 +196,14 @@ impl Forces {
                         continue;
                     }
                     let pair = interface::Pair::new(mesh, interfaces, number, position);
-                    let state = pair.state(&limit);
+                    let gap = pair.gap();
+                    let state = pair.state(&limit, gap);
                     if state > states[number] {
                         changed.push((number, state));
                     }
                     if state != State::Open {
-                        *sum = pair.force(law, interfaces.strings(number));
+                        let kind = interfaces.pairs[number].kind;
+                        *sum = pair.force(law, strings.of(kind, gap, limit.spacing));
                     }
                 }
                 changed
@@ -211,6 +226,7 @@ impl Forces {
             mesh: &self.mesh,
             interfaces: &self.interfaces,
             states: &self.states,
+            summation: self.summation,
         };
         let start = Instant::now();
         self.contacts = Contacts::search(&field, &self.material, position);

@@ -1,6 +1,6 @@
 //! Central differences in time, in the form that knows positions and velocities at the same moment.
 //!
-//! [Deng2011] Fig. 4-5 and Eq. (3-34) with the lumped mass: half a kick, a drift, new forces, half a kick.
+//! [Deng2011] Fig. 4-5 and Eq. (3-34): half a kick, a drift, new forces, half a kick.
 
 use rayon::prelude::*;
 
@@ -10,18 +10,36 @@ use crate::state::State;
 const CHUNK: usize = 4096;
 
 /// Advances the velocities by the forces over a time.
+///
+/// Coupled masses are a block m ((1 - 3 c) I + c 1 1^T) a triangle, and its inverse takes c times the sum of the three
+/// forces off each before it divides by m (1 - 3 c).
 pub fn kick(state: &mut State, time: f64) {
     let State {
         velocity,
         force,
         mobility,
+        coupling,
         ..
     } = state;
+    let coupled = 3 * coupling.len();
     for axis in 0..2 {
-        let planes = velocity[axis].par_chunks_mut(CHUNK);
+        let (triangles, rest) = velocity[axis].split_at_mut(coupled);
+        let planes = triangles.par_chunks_mut(3 * CHUNK);
         let planes = planes
-            .zip(force[axis].par_chunks(CHUNK))
-            .zip(mobility[axis].par_chunks(CHUNK));
+            .zip(force[axis].par_chunks(3 * CHUNK))
+            .zip(mobility[axis].par_chunks(3 * CHUNK))
+            .zip(coupling.par_chunks(CHUNK));
+        planes.for_each(|(((velocity, force), mobility), coupling)| {
+            for (triangle, share) in coupling.iter().enumerate() {
+                let nodes = 3 * triangle..3 * triangle + 3;
+                let shared = share * force[nodes.clone()].iter().sum::<f64>();
+                nodes.for_each(|node| velocity[node] += time * mobility[node] * (force[node] - shared));
+            }
+        });
+        let planes = rest.par_chunks_mut(CHUNK);
+        let planes = planes
+            .zip(force[axis][coupled..].par_chunks(CHUNK))
+            .zip(mobility[axis][coupled..].par_chunks(CHUNK));
         planes.for_each(|((velocity, force), mobility)| {
             for ((v, f), mobility) in velocity.iter_mut().zip(force).zip(mobility) {
                 *v += time * mobility * f;

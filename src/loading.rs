@@ -20,6 +20,8 @@ pub struct Stretching {
     pub grip: Grip,
     /// The interior starts with the velocity rate (y - y_mid), so that no shock enters.
     pub ramp: bool,
+    /// Nominal strain at the start.
+    pub pre_strain: f64,
     /// Nodes of the lower and of the upper grip.
     nodes: [Vec<u32>; 2],
     /// Speed of each grip, nm/ps.
@@ -41,8 +43,24 @@ impl Stretching {
             rate,
             grip,
             ramp,
+            pre_strain: 0.0,
             nodes,
             speed: 0.5 * rate * (high - low),
+        }
+    }
+
+    /// The same from a specimen that is already stretched to a nominal strain.
+    pub fn from_strain(self, pre_strain: f64) -> Self {
+        Self { pre_strain, ..self }
+    }
+
+    /// Stretches a specimen from its reference positions to the strain of the start: the grips as they are, evenly what
+    /// is between them.
+    pub fn pre_stretch(&self, mesh: &Mesh, state: &mut State) {
+        let [low, high] = mesh.grip_edges();
+        let middle = 0.5 * (low + high);
+        for height in &mut state.position[1] {
+            *height += self.pre_strain * (height.clamp(low, high) - middle);
         }
     }
 
@@ -51,8 +69,9 @@ impl Stretching {
         if self.ramp {
             let [low, high] = mesh.grip_edges();
             let middle = 0.5 * (low + high);
-            for node in 0..state.nodes() {
-                state.velocity[1][node] = self.rate * (state.position[1][node] - middle);
+            let [_, reference] = mesh.node_positions();
+            for (velocity, height) in state.velocity[1].iter_mut().zip(reference) {
+                *velocity = self.rate * (height - middle);
             }
         }
         self.hold(state);
@@ -75,7 +94,12 @@ impl Stretching {
 
     /// Nominal strain after a time.
     pub fn strain(&self, time: f64) -> f64 {
-        self.rate * time
+        self.pre_strain + self.rate * time
+    }
+
+    /// When a nominal strain is reached, ps.
+    pub fn time_of(&self, strain: f64) -> f64 {
+        (strain - self.pre_strain) / self.rate
     }
 
     /// Force with which the specimen pulls the grips together, eV/nm: half of what it pulls on both.

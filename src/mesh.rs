@@ -121,6 +121,20 @@ impl Mesh {
             .collect()
     }
 
+    /// What the consistent mass matrix of each triangle couples two nodes by, over the lumped mass of one.
+    pub fn mass_couplings(&self) -> Vec<f64> {
+        let mut of_size: Vec<(i32, f64)> = Vec::new();
+        let triangles = self.elements[..self.triangles].iter();
+        let couplings = triangles.map(|element| match of_size.iter().find(|known| known.0 == element.size) {
+            Some(&(_, coupling)) => coupling,
+            None => {
+                of_size.push((element.size, element.mass_coupling()));
+                of_size[of_size.len() - 1].1
+            }
+        });
+        couplings.collect()
+    }
+
     pub fn owner_of(&self, site: [i32; 2]) -> Option<usize> {
         self.sites.index(site).map(|number| self.owner[number] as usize)
     }

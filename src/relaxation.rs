@@ -11,6 +11,8 @@ mod fire;
 mod newton;
 mod vectors;
 
+use std::sync::atomic::{AtomicBool, Ordering};
+
 use crate::forces::{ForceError, Forces, Planes};
 use crate::material::Material;
 use crate::state::State;
@@ -56,12 +58,24 @@ pub enum RelaxationError {
     },
     #[error("{0}; start from a state nearer to the lattice")]
     NoForces(#[from] ForceError),
+    #[error("asked to stop before the specimen was at rest")]
+    Interrupted,
 }
 
 /// Moves the free nodes of `state` to where their forces vanish; velocities play no part and end as zero there.
 /// Where the motion is prescribed (a mobility of zero), positions stay as they are.
 pub fn relax(forces: &mut Forces, state: &mut State, target: Target) -> Result<Rest, RelaxationError> {
-    Descent::new(forces, state, target)?.run()
+    relax_unless(forces, state, target, &AtomicBool::new(false))
+}
+
+/// The same, given up as soon as `stop` becomes true.
+pub fn relax_unless(
+    forces: &mut Forces,
+    state: &mut State,
+    target: Target,
+    stop: &AtomicBool,
+) -> Result<Rest, RelaxationError> {
+    Descent::new(forces, state, target, stop)?.run()
 }
 
 /// Largest force with which a bond resists being stretched, eV/nm: what a residual force is measured by.
@@ -87,6 +101,7 @@ struct Descent<'a> {
     forces: &'a mut Forces,
     state: &'a mut State,
     target: Target,
+    stop: &'a AtomicBool,
     /// Inverse of every node's stiffness bound, nm^2/eV; zero where the motion is prescribed.
     compliance: Planes,
     strength: f64,
@@ -95,7 +110,12 @@ struct Descent<'a> {
 }
 
 impl<'a> Descent<'a> {
-    fn new(forces: &'a mut Forces, state: &'a mut State, target: Target) -> Result<Self, RelaxationError> {
+    fn new(
+        forces: &'a mut Forces,
+        state: &'a mut State,
+        target: Target,
+        stop: &'a AtomicBool,
+    ) -> Result<Self, RelaxationError> {
         let bounds = forces.stiffness_bounds(&state.position)?;
         let [strength, spacing] = [bond_strength(forces.material()), forces.material().spacing];
         let mut descent = Self {
@@ -103,6 +123,7 @@ impl<'a> Descent<'a> {
             forces,
             state,
             target,
+            stop,
             strength,
             spacing,
             evaluations: 0,
@@ -135,6 +156,9 @@ impl<'a> Descent<'a> {
                 residual: self.residual(),
                 wanted: self.target.residual,
             });
+        }
+        if self.stop.load(Ordering::Relaxed) {
+            return Err(RelaxationError::Interrupted);
         }
         self.evaluations += 1;
         self.forces.compute(&self.state.position, &mut self.state.force)?;

@@ -10,6 +10,7 @@ pub use run::{Finished, RunCaseError, run_case};
 
 use std::time::Duration;
 
+use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching};
 use crate::material::{Material, WaveSpeeds};
@@ -179,14 +180,26 @@ pub fn solver(case: &Case) -> Result<Solver, SetupError> {
         case::Grips::Sliding => Grip::Sliding,
     };
     let loading = Stretching::new(&mesh, rate, grip, ramp == case::Ramp::InitialVelocity);
+    let loading = loading.from_strain(case.run.relax.unwrap_or(0.0));
     Ok(Solver::new(mesh, material, loading, settings(case, rate))?)
 }
 
 fn settings(case: &Case, rate: f64) -> solver::Settings {
-    let case::Summation::Exact = case.run.summation;
-    let case::MassMatrix::Lumped = case.run.mass;
     solver::Settings {
-        time_step: time_step(case),
+        time_step: match case.run.time_step {
+            case::TimeStep::Auto { fraction } => TimeStep::Auto { fraction },
+            case::TimeStep::Given(step) => TimeStep::Given(step),
+        },
+        summation: match case.run.summation {
+            case::Summation::Exact => Summation::Exact,
+            case::Summation::Gauss { points } => Summation::Gauss { points },
+            case::Summation::Nodal => Summation::Nodal,
+        },
+        consistent_mass: match case.run.mass {
+            case::MassMatrix::Lumped => 0.0,
+            case::MassMatrix::Blend(share) => share,
+        },
+        relax: case.run.relax.is_some(),
         until: solver::Until {
             strain: case.run.until.strain,
             time: case.run.until.time,
@@ -200,12 +213,5 @@ fn settings(case: &Case, rate: f64) -> solver::Settings {
         }),
         checkpoint_every: Duration::from_secs_f64(case.execution.checkpoint_every),
         thickness: case.material.thickness,
-    }
-}
-
-fn time_step(case: &Case) -> TimeStep {
-    match case.run.time_step {
-        case::TimeStep::Auto { fraction } => TimeStep::Auto { fraction },
-        case::TimeStep::Given(step) => TimeStep::Given(step),
     }
 }

@@ -23,11 +23,12 @@ use std::time::{Duration, Instant};
 
 use crate::analysis::crack::Tracker;
 use crate::analysis::series::{BondEvent, Probe, Setting};
-use crate::forces::{ForceError, Forces, Measure};
+use crate::forces::{ForceError, Forces, Measure, Summation};
 use crate::integrator;
 use crate::loading::Stretching;
 use crate::material::Material;
 use crate::mesh::Mesh;
+use crate::relaxation::{self, RelaxationError, Target};
 use crate::state::State;
 use checkpoint::Checkpoint;
 use probe::ProfileLine;
@@ -37,6 +38,11 @@ use schedule::Schedule;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Settings {
     pub time_step: TimeStep,
+    pub summation: Summation,
+    /// Share of the consistent mass matrix in that of the triangles; the rest is lumped.
+    pub consistent_mass: f64,
+    /// Whether the specimen comes to rest under the strain of the start before it moves.
+    pub relax: bool,
     pub until: Until,
     /// Simulated time between probes, ps.
     pub probe_every: f64,
@@ -125,6 +131,8 @@ pub enum SolverError {
     },
     #[error("the run cannot start: {0}")]
     NoStart(ForceError),
+    #[error("`relax` before the run: {0}")]
+    NoRest(RelaxationError),
 }
 
 /// How a run ended, or why not; observers' errors pass through.
@@ -169,11 +177,16 @@ impl Solver {
             .map(|mass| mass * material.site_mass)
             .collect();
         let mut state = State::at_rest(mesh.node_positions(), masses);
+        if settings.consistent_mass > 0.0 {
+            let couplings = mesh.mass_couplings().into_iter();
+            state.couple_masses(couplings.map(|share| settings.consistent_mass * share).collect());
+        }
+        loading.pre_stretch(&mesh, &mut state);
         loading.start(&mesh, &mut state);
         let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let profile = ProfileLine::new(&mesh, &setting);
         let tracker = Tracker::new(&setting);
-        let mut forces = Forces::new(mesh, material);
+        let mut forces = Forces::with_summation(mesh, material, settings.summation);
         forces
             .compute(&state.position, &mut state.force)
             .map_err(SolverError::NoStart)?;
@@ -250,6 +263,9 @@ impl Solver {
     pub fn run<O: Observer>(&mut self, observer: &mut O, stop: &AtomicBool) -> Result<Ending, RunError<O::Error>> {
         let mut last_checkpoint = Instant::now();
         if self.step == 0 {
+            if self.settings.relax && self.probes.taken() == 0 && !self.come_to_rest(stop)? {
+                return Ok(Ending::Interrupted);
+            }
             self.observe(observer, false)?;
         } else if let Some(ending) = self.ending() {
             // Only the last checkpoint of a run is made where it ends, and everything was given before it.
@@ -274,9 +290,32 @@ impl Solver {
         }
     }
 
+    /// Brings the specimen to rest under the strain of the start, then sets it in motion; false if asked to stop.
+    fn come_to_rest(&mut self, stop: &AtomicBool) -> Result<bool, SolverError> {
+        let mut clock = Instant::now();
+        let rest = relaxation::relax_unless(&mut self.forces, &mut self.state, Target::default(), stop);
+        match rest {
+            Ok(_) => {}
+            Err(RelaxationError::Interrupted) => return Ok(false),
+            Err(error) => return Err(SolverError::NoRest(error)),
+        }
+        self.loading.start(self.forces.mesh(), &mut self.state);
+        let start = self
+            .forces
+            .measure(&self.state.position)
+            .map_err(SolverError::NoStart)?;
+        self.ledger.begin(&start, self.state.kinetic_energy());
+        self.power = self.loading.power(&self.state);
+        self.stability_limit = time_step::limit(&mut self.forces, &self.state).map_err(SolverError::NoStart)?;
+        self.time_step = self.settings.time_step.choose(self.stability_limit)?;
+        self.cost.book(Phase::SetUp, &mut clock);
+        Ok(true)
+    }
+
     fn ending(&self) -> Option<Ending> {
+        let strain_at = |time| self.loading.strain(time);
         self.stop
-            .ending(&self.settings.until, self.time, self.strain(), self.time_step)
+            .ending(&self.settings.until, self.time, self.time_step, strain_at)
     }
 
     fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {

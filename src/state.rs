@@ -6,15 +6,18 @@ pub struct State {
     pub position: [Vec<f64>; 2],
     pub velocity: [Vec<f64>; 2],
     pub force: [Vec<f64>; 2],
-    /// Lumped mass, eV ps^2/nm^2.
+    /// Lumped mass, the sum of a row of the mass matrix, eV ps^2/nm^2.
     pub mass: Vec<f64>,
+    /// For every triangle, whose nodes come first, the mass that couples two of its nodes over the lumped mass of one;
+    /// empty where all masses are lumped. The block of a triangle is mass ((1 - 3 c) I + c 1 1^T).
+    pub coupling: Vec<f64>,
     /// What a force is multiplied by to give the acceleration: the inverse of the mass, and zero where the motion is
-    /// prescribed.
+    /// prescribed. With coupled masses the mean force of the triangle acts apart: see [`crate::integrator::kick`].
     pub mobility: [Vec<f64>; 2],
 }
 
 impl State {
-    /// Nodes at rest at these positions, free to move.
+    /// Nodes at rest at these positions, free to move, with lumped masses.
     pub fn at_rest(position: [Vec<f64>; 2], mass: Vec<f64>) -> Self {
         let nodes = mass.len();
         let free: Vec<f64> = mass.iter().map(|mass| 1.0 / mass).collect();
@@ -24,15 +27,27 @@ impl State {
             velocity: zeros(),
             force: zeros(),
             mass,
+            coupling: Vec::new(),
             mobility: [free.clone(), free],
         }
+    }
+
+    /// Couples the masses of each triangle's nodes by this share of the lumped mass of one. All nodes become free.
+    pub fn couple_masses(&mut self, coupling: Vec<f64>) {
+        for (triangle, share) in coupling.iter().enumerate() {
+            for node in 3 * triangle..3 * triangle + 3 {
+                let mobility = 1.0 / (self.mass[node] * (1.0 - 3.0 * share));
+                self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
+            }
+        }
+        self.coupling = coupling;
     }
 
     pub fn nodes(&self) -> usize {
         self.mass.len()
     }
 
-    /// Kinetic energy of the lumped masses, eV.
+    /// Kinetic energy, v^T M v/2, eV.
     pub fn kinetic_energy(&self) -> f64 {
         let [x, y] = &self.velocity;
         let squared = x
@@ -40,6 +55,20 @@ impl State {
             .zip(y)
             .zip(&self.mass)
             .map(|((x, y), mass)| mass * (x * x + y * y));
-        0.5 * squared.sum::<f64>()
+        0.5 * (squared.sum::<f64>() + self.coupled_part())
+    }
+
+    /// What coupling adds to v^T M v: c m ((sum v)^2 - 3 sum v^2) for every triangle.
+    fn coupled_part(&self) -> f64 {
+        let of_triangle = |(triangle, share): (usize, &f64)| {
+            let nodes = 3 * triangle..3 * triangle + 3;
+            let planes = self.velocity.iter().map(|plane| {
+                let speeds = &plane[nodes.clone()];
+                let sum: f64 = speeds.iter().sum();
+                sum * sum - 3.0 * speeds.iter().map(|v| v * v).sum::<f64>()
+            });
+            share * self.mass[nodes.start] * planes.sum::<f64>()
+        };
+        self.coupling.iter().enumerate().map(of_triangle).sum()
     }
 }

@@ -137,7 +137,7 @@ fn motion(case: &case::Case, solver: &Solver) -> Motion {
         time: case.run.until.time,
         ..Until::default()
     };
-    let steps = until.steps(0, 0.0, time_step, rate);
+    let steps = until.steps(0, 0.0, time_step, |strain| strain / rate);
     let interval = |time: f64| ((time / time_step).round() as u64).clamp(1, steps.max(1));
     Motion {
         rate,

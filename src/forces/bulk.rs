@@ -1,6 +1,7 @@
 //! Bonds inside triangles: all bonds of one lattice vector are the same vector, so each costs one evaluation.
 
 use super::affine::{Affine, smallest_stretch};
+use super::summation::Summation;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
 use crate::potential::{CutPotential, PairShape};
@@ -20,7 +21,7 @@ pub struct BulkBonds {
 }
 
 impl BulkBonds {
-    pub fn new(mesh: &Mesh, listed_length: f64) -> Self {
+    pub fn new(mesh: &Mesh, listed_length: f64, summation: Summation) -> Self {
         let mut sizes: Vec<i32> = mesh.elements[..mesh.triangles]
             .iter()
             .map(|element| element.size)
@@ -31,7 +32,7 @@ impl BulkBonds {
                 .into_iter()
                 .map(|local| BulkBond {
                     local,
-                    count: bond_count(size, local),
+                    count: summation.bulk_count(size, local),
                     length: f64::from(triangular::squared_length(local)).sqrt(),
                 })
                 .filter(|bond| bond.count > 0.0)
@@ -81,43 +82,5 @@ impl BulkBonds {
         let edge = 1.0 / f64::from(size - 1);
         let [first, second] = [first, second].map(|sum| [sum[0] * edge, sum[1] * edge]);
         [[-first[0] - second[0], -first[1] - second[1]], first, second]
-    }
-}
-
-/// Number of bonds of a lattice vector inside a triangle: its overlap with itself is a smaller triangle.
-fn bond_count(size: i32, [i, j]: [i32; 2]) -> f64 {
-    let overlap = size - (i.abs() + j.abs() + (i + j).abs()) / 2;
-    if overlap > 0 {
-        f64::from(overlap * (overlap + 1) / 2)
-    } else {
-        0.0
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::mesh::element::Element;
-
-    #[test]
-    fn the_55_site_triangle_has_45_bonds_of_each_nearest_neighbour_vector() {
-        assert_eq!(triangular::NEAREST.map(|vector| bond_count(10, vector)), [45.0; 3]);
-    }
-
-    #[test]
-    fn bond_counts_are_those_found_site_by_site() {
-        let element = Element {
-            size: 6,
-            sign: -1,
-            column: 2,
-            row: 3,
-        };
-        for vector in triangular::half_vectors_within(6.0) {
-            let ends = element.locals().filter(|&[p, q]| {
-                let [p, q] = [p + vector[0], q + vector[1]];
-                p >= 0 && q >= 0 && p + q < 6
-            });
-            assert_eq!(bond_count(6, vector), ends.count() as f64, "{vector:?}");
-        }
     }
 }

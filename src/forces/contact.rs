@@ -24,6 +24,8 @@ pub struct Contacts {
     /// Element and local coordinates of each site, by element.
     element: Vec<u32>,
     local: Vec<[i16; 2]>,
+    /// How many sites each stands for; empty where each stands for itself.
+    weight: Vec<f64>,
     /// Where each site's partners start, and the total at the end.
     start: Vec<u32>,
     partners: Vec<Partner>,
@@ -119,13 +121,14 @@ impl Contacts {
         planes.enumerate().for_each(|(chunk, (x, y))| {
             for k in 0..x.len() {
                 let mut sum = [0.0; 2];
-                self.for_each_partner(chunk * CHUNK + k, |[dx, dy], severed| {
+                self.for_each_partner(chunk * CHUNK + k, |[dx, dy], severed, count| {
                     let squared = dx * dx + dy * dy;
                     let pull = if severed {
                         law.repulsion(squared, spacing).slope
                     } else {
                         law.slope(squared)
                     };
+                    let pull = count * pull;
                     sum = [sum[0] + pull * dx, sum[1] + pull * dy];
                 });
                 [x[k], y[k]] = sum;
@@ -149,15 +152,20 @@ impl Contacts {
         self.position = [site_x, site_y];
     }
 
-    /// Calls with the vector to each listed partner of a site, and whether a cut severs the pair.
+    /// Calls with the vector to each listed partner of a site, whether a cut severs the pair, and how many it stands for.
     #[inline(always)]
-    pub fn for_each_partner(&self, site: usize, mut call: impl FnMut([f64; 2], bool)) {
+    pub fn for_each_partner(&self, site: usize, mut call: impl FnMut([f64; 2], bool, f64)) {
         let [x, y] = [self.position[0][site], self.position[1][site]];
         for &partner in &self.partners[self.start[site] as usize..self.start[site + 1] as usize] {
             let other = partner.site();
+            let count = match self.weight.is_empty() {
+                true => 1.0,
+                false => 0.5 * (self.weight[site] + self.weight[other]),
+            };
             call(
                 [self.position[0][other] - x, self.position[1][other] - y],
                 partner.severed(),
+                count,
             );
         }
     }

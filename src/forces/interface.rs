@@ -2,6 +2,7 @@
 
 use super::Planes;
 use super::affine::{Affine, smallest_stretch};
+use super::summation::{Sample, SampledString};
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
 use crate::mesh::interfaces::{BondString, Interfaces};
@@ -60,7 +61,8 @@ impl<'a> Pair<'a> {
         }
     }
 
-    /// Whether the strings hold every pair of sites within the cutoff, and whether the triangles are still in place.
+    /// Whether the strings hold every pair of sites within the cutoff, and whether the triangles are still in place, for
+    /// their [`Self::gap`].
     ///
     /// A pair that is in no string was at least `unlisted` apart. With F the gradient of the second triangle, D the
     /// difference of the two gradients and g the gap between the two maps where the triangles face each other, the
@@ -68,7 +70,7 @@ impl<'a> Pair<'a> {
     /// `LEVER` |b| plus a spacing. So all are beyond the cutoff if (smallest stretch of F - LEVER |D|) unlisted
     /// - |g| - |D| spacing is.
     #[inline(always)]
-    pub fn state(&self, limit: &IntactLimit) -> State {
+    pub fn state(&self, limit: &IntactLimit, gap: f64) -> State {
         /// Triangles that face along an edge need 1, those that meet at a corner over a 60 degree wedge 1/sin 60.
         const LEVER: f64 = 1.5;
         /// In spacings. While all neighbours of a triangle are closer to their lattice places than this, nothing else
@@ -84,10 +86,6 @@ impl<'a> Pair<'a> {
             }
         }
         let difference = squared_difference.sqrt();
-        let gap = self
-            .squared_gap(self.anchors[0])
-            .max(self.squared_gap(self.anchors[1]))
-            .sqrt();
         let stretch = smallest_stretch(second) - LEVER * difference;
         let spacing = limit.spacing;
         let displaced = gap + difference * spacing;
@@ -101,6 +99,13 @@ impl<'a> Pair<'a> {
             // Also where the positions are not numbers.
             false => State::Open,
         }
+    }
+
+    /// How far the two triangles are from fitting together where they face each other, nm.
+    #[inline(always)]
+    pub fn gap(&self) -> f64 {
+        let [a, b] = self.anchors.map(|anchor| self.squared_gap(anchor));
+        a.max(b).sqrt()
     }
 
     /// Squared distance between the places where the two triangles would put one lattice site.
@@ -129,16 +134,15 @@ impl<'a> Pair<'a> {
     /// Forces of all strings on the nodes of both triangles: the weights along a string are linear too, so that the
     /// sums of the bond forces and of their first moments say it all.
     #[inline(always)]
-    pub fn force<S: PairShape>(&self, law: &CutPotential<S>, strings: &[BondString]) -> InterfaceForce {
+    pub fn force<S: PairShape>(&self, law: &CutPotential<S>, strings: &[SampledString]) -> InterfaceForce {
         let mut first = NodalSum::default();
         let mut second = NodalSum::default();
-        for string in strings {
+        for SampledString { string, samples } in strings {
             let [start, step] = self.string_vectors(string);
             let [mut sum, mut moment] = [[0.0; 2]; 2];
-            for t in 0..string.count {
-                let t = f64::from(t);
+            for &Sample { at: t, weight } in samples {
                 let [x, y] = [start[0] + t * step[0], start[1] + t * step[1]];
-                let pull = law.slope(x * x + y * y);
+                let pull = weight * law.slope(x * x + y * y);
                 let [x, y] = [pull * x, pull * y];
                 sum = [sum[0] + x, sum[1] + y];
                 moment = [moment[0] + t * x, moment[1] + t * y];

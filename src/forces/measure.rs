@@ -3,6 +3,7 @@
 use rayon::prelude::*;
 
 use super::affine::Affine;
+use super::summation::{Sample, SampledString};
 use super::{CHUNK, ForceError, Forces, Planes, interface};
 
 /// Totals and per-element sums at one moment.
@@ -19,7 +20,7 @@ pub struct Measure {
 /// A bond as one element sees it.
 pub(super) struct Bond {
     pub vector: [f64; 2],
-    /// How many bonds it stands for.
+    /// How many bonds it stands for, as its rule of summation weighs it.
     pub count: f64,
     pub kind: BondKind,
 }
@@ -27,8 +28,8 @@ pub(super) struct Bond {
 pub(super) enum BondKind {
     /// Inside a triangle, along this lattice vector in local coordinates.
     Inside { local: [i32; 2] },
-    /// Between this site of the element and another element, which counts the bond too.
-    Across { local: [i32; 2], severed: bool },
+    /// Between this place of the element, in local coordinates, and another element, which counts the bond too.
+    Across { local: [f64; 2], severed: bool },
 }
 
 impl Forces {
@@ -112,11 +113,11 @@ impl Forces {
             }
         }
         for site in self.contacts.sites_of(element) {
-            let local = self.contacts.local(site);
-            self.contacts.for_each_partner(site, |vector, severed| {
+            let local = self.contacts.local(site).map(f64::from);
+            self.contacts.for_each_partner(site, |vector, severed, count| {
                 call(Bond {
                     vector,
-                    count: 1.0,
+                    count,
                     kind: BondKind::Across { local, severed },
                 });
             });
@@ -126,20 +127,20 @@ impl Forces {
     fn for_each_string_bond(&self, element: usize, number: usize, position: &Planes, call: &mut impl FnMut(Bond)) {
         let pair = interface::Pair::new(&self.mesh, &self.interfaces, number, position);
         let is_first = self.interfaces.pairs[number].first as usize == element;
-        for string in self.interfaces.strings(number) {
+        let kind = self.interfaces.pairs[number].kind;
+        for SampledString { string, samples } in self.strings.of(kind, pair.gap(), self.material.spacing) {
             let [start, step] = pair.string_vectors(string);
             let (site, site_step) = if is_first {
                 (string.first, string.first_step)
             } else {
                 (string.second, string.second_step)
             };
-            for t in 0..string.count {
-                let along = f64::from(t);
-                let vector = [start[0] + along * step[0], start[1] + along * step[1]];
-                let local = [site[0] + t * site_step[0], site[1] + t * site_step[1]];
+            for &Sample { at, weight } in samples {
+                let vector = [start[0] + at * step[0], start[1] + at * step[1]];
+                let local = [0, 1].map(|k| f64::from(site[k]) + at * f64::from(site_step[k]));
                 call(Bond {
                     vector,
-                    count: 1.0,
+                    count: weight,
                     kind: BondKind::Across { local, severed: false },
                 });
             }

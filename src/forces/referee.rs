@@ -1,7 +1,7 @@
 //! Energy and forces by the definition: every pair of sites, one by one. Slow and obvious; it judges the fast paths.
 
-use super::Planes;
 use super::affine::site_position;
+use super::{Planes, Summation};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::potential::{PairValue, with_law};
@@ -17,8 +17,8 @@ pub struct Reference {
     pub pairs: f64,
 }
 
-/// Sums over all pairs of sites. The cost grows with the square of their number.
-pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes) -> Reference {
+/// Sums over all pairs of sites, each weighed as its two sites are. The cost grows with the square of their number.
+pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes, summation: Summation) -> Reference {
     let sites: Vec<[i32; 2]> = mesh.sites.iter().collect();
     let carried: Vec<(usize, [i32; 2])> = sites
         .iter()
@@ -29,6 +29,8 @@ pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes) -
         .collect();
     let place = |&(element, local): &(usize, [i32; 2])| site_position(mesh, element, local, position);
     let placed: Vec<[f64; 2]> = carried.iter().map(place).collect();
+    let weigh = |&(element, local): &(usize, [i32; 2])| summation.site_weight(&mesh.elements[element], local);
+    let weights: Vec<f64> = carried.iter().map(weigh).collect();
     let mut site_force = vec![[0.0; 2]; sites.len()];
     let mut reference = Reference {
         energy: 0.0,
@@ -48,11 +50,12 @@ pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes) -
             } else {
                 material.interaction.evaluate(squared)
             };
-            reference.energy += value.energy;
-            reference.pairs += if severed { 0.0 } else { 1.0 };
+            let count = 0.5 * (weights[a] + weights[b]);
+            reference.energy += count * value.energy;
+            reference.pairs += if severed { 0.0 } else { count };
             for axis in 0..2 {
-                site_force[a][axis] += value.slope * vector[axis];
-                site_force[b][axis] -= value.slope * vector[axis];
+                site_force[a][axis] += count * value.slope * vector[axis];
+                site_force[b][axis] -= count * value.slope * vector[axis];
             }
         }
     }

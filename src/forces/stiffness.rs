@@ -5,30 +5,31 @@ use rayon::prelude::*;
 
 use super::measure::{Bond, BondKind};
 use super::{CHUNK, ForceError, Forces, Planes};
+use crate::state::State;
 
 impl Forces {
-    /// Upper bound of the squared highest angular frequency in the current state, 1/ps^2; `masses` a node.
+    /// Upper bound of the squared highest angular frequency in the current state, 1/ps^2.
     ///
     /// The bonds inside a triangle couple its own nodes only. A bond between two elements stores at most twice what
     /// its two ends would store each against a wall, (u_a - u_b) H (u_a - u_b)/2 <= u_a H+ u_a + u_b H+ u_b with H+
     /// the positive part of the bond's stiffness. So the system is no stiffer than its elements one by one, and the
     /// largest eigenvalue of the small matrices bounds that of the large one. For the perfect crystal of atoms the
     /// bound 6 k/m is exact.
-    pub fn squared_frequency_bound(&mut self, position: &Planes, masses: &[f64]) -> Result<f64, ForceError> {
+    pub fn squared_frequency_bound(&mut self, state: &State) -> Result<f64, ForceError> {
+        let position = &state.position;
         self.refresh(position)?;
         self.contacts.place_sites(&self.mesh, position);
         let chunks = self.mesh.elements.len().div_ceil(CHUNK);
         let of_chunk = |chunk: usize| {
             let elements = chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK);
             elements.fold(0.0, |largest: f64, element| {
-                let stiffness = self.element_stiffness(element, position);
+                let mut stiffness = self.element_stiffness(element, position);
+                if let Some(&share) = state.coupling.get(element) {
+                    stiffness = over_coupled_masses(stiffness, share);
+                }
                 let nodes = self.mesh.elements[element].node_count();
-                largest.max(largest_eigenvalue(
-                    &stiffness,
-                    nodes,
-                    masses[self.mesh.first_node(element)],
-                    largest,
-                ))
+                let mass = state.mass[self.mesh.first_node(element)];
+                largest.max(largest_eigenvalue(&stiffness, nodes, mass, largest))
             })
         };
         Ok((0..chunks).into_par_iter().map(of_chunk).reduce(|| 0.0, f64::max))
@@ -61,7 +62,7 @@ impl Forces {
                 BondKind::Across { local, severed } => {
                     let [along, across] = self.bond_stiffness(&bond, severed);
                     (
-                        shape.shape_functions(local),
+                        shape.shape_functions_between_sites(local),
                         [2.0 * along.max(0.0), 2.0 * across.max(0.0)],
                     )
                 }
@@ -89,6 +90,21 @@ impl Forces {
         let across = self.contacts.value(&self.material, squared, severed).slope;
         [bond.count * along, bond.count * across]
     }
+}
+
+/// The stiffness between two inverse roots of the mass matrix over the lumped mass, (1 - 3 c) I + c 1 1^T: the mean of
+/// the three nodes keeps its mass, what they move against each other has 1 - 3 c of it.
+fn over_coupled_masses(stiffness: Matrix6<f64>, share: f64) -> Matrix6<f64> {
+    let apart = 1.0 / (1.0 - 3.0 * share).sqrt();
+    let root = Matrix6::from_fn(|row, column| {
+        let mean = if row % 2 == column % 2 {
+            (1.0 - apart) / 3.0
+        } else {
+            0.0
+        };
+        mean + if row == column { apart } else { 0.0 }
+    });
+    root * stiffness * root
 }
 
 /// Second derivative of a bond's energy with its vector.

@@ -81,18 +81,37 @@ impl Element {
 
     /// Shape functions N_i at local coordinates: area coordinates, [Deng2011] Eq. (3-27) on Fig. 3-6.
     #[inline(always)]
-    pub fn shape_functions(&self, [p, q]: [i32; 2]) -> [f64; 3] {
+    pub fn shape_functions(&self, local: [i32; 2]) -> [f64; 3] {
+        self.shape_functions_between_sites(local.map(f64::from))
+    }
+
+    /// The same at any place.
+    #[inline(always)]
+    pub fn shape_functions_between_sites(&self, [p, q]: [f64; 2]) -> [f64; 3] {
         if self.is_atom() {
             return [1.0, 0.0, 0.0];
         }
         let edge = f64::from(self.size - 1);
-        let [second, third] = [f64::from(p) / edge, f64::from(q) / edge];
+        let [second, third] = [p / edge, q / edge];
         [1.0 - second - third, second, third]
     }
 
     /// Lumped mass of each node in site masses, M_i = m sum_a N_i(a): [Deng2011] Eq. (3-29).
     pub fn lumped_mass(&self) -> f64 {
         self.site_count() as f64 / self.node_count() as f64
+    }
+
+    /// What the consistent mass matrix couples two nodes by, over the lumped mass of one: m sum_a N_i(a) N_j(a) for
+    /// i != j, over m sum_a N_i(a). Its rows sum to the lumped mass, [Deng2011] Eq. (3-29).
+    pub fn mass_coupling(&self) -> f64 {
+        if self.is_atom() {
+            return 0.0;
+        }
+        let products = self.locals().map(|local| {
+            let [first, second, _] = self.shape_functions(local);
+            first * second
+        });
+        products.sum::<f64>() / self.lumped_mass()
     }
 
     /// Lowest row of the element.

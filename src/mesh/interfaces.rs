@@ -22,9 +22,21 @@ pub struct BondString {
     pub second_step: [i32; 2],
 }
 
+impl BondString {
+    /// Local coordinates of both ends of a bond.
+    pub fn ends(&self, t: i32) -> [[i32; 2]; 2] {
+        [
+            shift(self.first, self.first_step, t),
+            shift(self.second, self.second_step, t),
+        ]
+    }
+}
+
 /// All there is to know of two neighbouring triangles but where they are: shared by all pairs alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct InterfaceKind {
+    /// Two triangles of this kind.
+    pub elements: [Element; 2],
     pub strings: Vec<BondString>,
     /// Two lattice sites between which the triangles face each other, relative to the first triangle's anchor site.
     pub anchors: [[i32; 2]; 2],
@@ -195,6 +207,7 @@ impl InterfaceKind {
             .flat_map(|&bond| strings_along(first, second, bond))
             .collect();
         Self {
+            elements: [*first, *second],
             strings,
             anchors: facing_sites(first, second),
         }
@@ -306,8 +319,8 @@ mod tests {
                 let [first, second] = [pair.first, pair.second].map(|e| mesh.elements[e as usize]);
                 for string in interfaces.strings(number) {
                     for t in 0..string.count {
-                        let a = first.site(shift(string.first, string.first_step, t));
-                        let b = second.site(shift(string.second, string.second_step, t));
+                        let [a, b] = string.ends(t);
+                        let [a, b] = [first.site(a), second.site(b)];
                         assert_eq!(shift(a, string.bond, 1), b);
                         assert!(first.contains(a) && second.contains(b));
                         listed += 1;

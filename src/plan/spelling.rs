@@ -143,14 +143,28 @@ fn running(run: &Run) -> Value {
     let Run {
         until,
         time_step,
-        summation: Summation::Exact,
-        mass: MassMatrix::Lumped,
+        summation,
+        mass,
+        relax,
     } = run;
     let time_step = match *time_step {
         TimeStep::Auto { fraction } => json!({ "fraction": fraction }),
         TimeStep::Given(step) => time(step),
     };
-    json!({ "until": stop(until), "time-step": time_step, "summation": "exact", "mass": "lumped" })
+    let summation = match *summation {
+        Summation::Exact => json!("exact"),
+        Summation::Gauss { points } => json!({ "gauss": points }),
+        Summation::Nodal => json!("nodal"),
+    };
+    let mass = match *mass {
+        MassMatrix::Lumped => json!("lumped"),
+        MassMatrix::Blend(share) => json!({ "blend": share }),
+    };
+    let mut spelled = json!({ "until": stop(until), "time-step": time_step, "summation": summation, "mass": mass });
+    if let Some(strain) = relax {
+        spelled["relax"] = json!({ "strain": quantity(*strain, Dimension::Fraction) });
+    }
+    spelled
 }
 
 fn stop(until: &Until) -> Value {

@@ -23,7 +23,7 @@ pub fn read(path: &Path, case_id: &str) -> Result<Checkpoint, RecordError> {
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 1,
+        format: 2,
         case_id,
     }
 }
@@ -38,6 +38,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         position: [position_x, position_y],
         velocity: [velocity_x, velocity_y],
         open_interfaces,
+        start: [start_potential, start_pairs, start_kinetic],
         work,
         peak_work,
         peak_imbalance,
@@ -78,6 +79,9 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         ("time", "ps", time),
         ("time_step", "ps", time_step),
         ("stability_limit", "ps", stability_limit),
+        ("start_potential", "eV", start_potential),
+        ("start_pairs", "1", start_pairs),
+        ("start_kinetic", "eV", start_kinetic),
         ("work", "eV", work),
         ("peak_work", "eV", peak_work),
         ("peak_imbalance", "eV", peak_imbalance),
@@ -98,6 +102,11 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
         position: [get(group, "position_x")?, get(group, "position_y")?],
         velocity: [get(group, "velocity_x")?, get(group, "velocity_y")?],
         open_interfaces: get(group, "open_interfaces")?,
+        start: [
+            get_scalar(group, "start_potential")?,
+            get_scalar(group, "start_pairs")?,
+            get_scalar(group, "start_kinetic")?,
+        ],
         work: get_scalar(group, "work")?,
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,

@@ -6,8 +6,8 @@ use crate::loading::{Grip, Stretching};
 use crate::material::Material;
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
-use crate::setup::{SetupError, material, mesh_plan, time_step};
-use crate::solver::{Settings, Solver, SolverError, TimeStep, Until};
+use crate::setup::{SetupError, material, mesh_plan, settings};
+use crate::solver::{Settings, Solver, SolverError, TimeStep};
 use crate::study::case::{self, Case};
 
 /// Size and cost of a case.
@@ -44,15 +44,14 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
     let plan = mesh_plan(case, &material)?;
     refuse_what_does_not_fit(&plan)?;
     let census = Census::of(&plan);
-    let stability_limit = stability_limit(&census, &material)?;
-    let time_step = time_step(case).choose(stability_limit)?;
     let case::Loading::StrainRate { rate, .. } = case.loading;
-    let until = Until {
-        strain: case.run.until.strain,
-        time: case.run.until.time,
-        ..Until::default()
-    };
-    let steps = until.steps(0, 0.0, time_step, rate);
+    let settings = settings(case, rate);
+    let stability_limit = stability_limit(&census, &material, &settings)?;
+    let time_step = settings.time_step.choose(stability_limit)?;
+    let start = case.run.relax.unwrap_or(0.0);
+    let steps = settings
+        .until
+        .steps(0, 0.0, time_step, |strain| (strain - start) / rate);
     if !(1..MOST_STEPS).contains(&steps) {
         return Err(SetupError::Endless { steps, time_step });
     }
@@ -78,7 +77,7 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
 
 /// The stability limit of the perfect crystal in this mesh, ps. The bound goes element by element, so each size is
 /// looked at in a small specimen of its own.
-fn stability_limit(census: &Census, material: &Material) -> Result<f64, SolverError> {
+fn stability_limit(census: &Census, material: &Material, settings: &Settings) -> Result<f64, SolverError> {
     let limits = census.elements.iter().map(|&(size, _)| {
         let block = size.max(3);
         let layout = Layout {
@@ -99,11 +98,7 @@ fn stability_limit(census: &Census, material: &Material) -> Result<f64, SolverEr
         let loading = Stretching::new(&patch, 1.0, Grip::Clamped, false);
         let settings = Settings {
             time_step: TimeStep::Auto { fraction: 1.0 },
-            until: Until::default(),
-            probe_every: f64::INFINITY,
-            snapshot_every: None,
-            checkpoint_every: std::time::Duration::MAX,
-            thickness: 1.0,
+            ..settings.clone()
         };
         Solver::new(patch, *material, loading, settings).map(|solver| solver.time_step()[1])
     });

@@ -17,6 +17,8 @@ pub struct Checkpoint {
     pub velocity: [Vec<f64>; 2],
     /// Interfaces that have left the intact path, ascending.
     pub open_interfaces: Vec<u32>,
+    /// Potential energy (eV), pairs within the cutoff and kinetic energy (eV) when the motion began.
+    pub start: [f64; 3],
     /// Work of the grips so far, eV.
     pub work: f64,
     /// Largest |work| and largest energy imbalance seen, eV.

@@ -45,6 +45,11 @@ impl Ledger {
         }
     }
 
+    /// Puts the start where the specimen is now, before any work.
+    pub fn begin(&mut self, start: &Measure, kinetic: f64) {
+        *self = Self::new(start, kinetic, self.jump);
+    }
+
     pub fn add_work(&mut self, work: f64) {
         self.work += work;
         self.peak_work = self.peak_work.max(self.work.abs());
@@ -106,7 +111,13 @@ impl Ledger {
         self.peak_imbalance
     }
 
-    pub fn restore(&mut self, work: f64, peak_work: f64, peak_imbalance: f64) {
+    /// Potential energy, pairs within the cutoff and kinetic energy at the start.
+    pub fn start(&self) -> [f64; 3] {
+        [self.initial_potential, self.initial_pairs, self.initial_kinetic]
+    }
+
+    pub fn restore(&mut self, start: [f64; 3], work: f64, peak_work: f64, peak_imbalance: f64) {
+        [self.initial_potential, self.initial_pairs, self.initial_kinetic] = start;
         self.work = work;
         self.peak_work = peak_work;
         self.peak_imbalance = peak_imbalance;

@@ -53,7 +53,9 @@ impl Solver {
             of: self
                 .settings
                 .until
-                .steps(self.step, self.time, self.time_step, self.loading.rate),
+                .steps(self.step, self.time, self.time_step, |strain| {
+                    self.loading.time_of(strain)
+                }),
             time: self.time,
             strain: self.strain(),
             tip: self.tracker.as_ref().map(|_| self.stop.farthest_tip()),

@@ -15,6 +15,7 @@ impl Solver {
             position: self.state.position.clone(),
             velocity: self.state.velocity.clone(),
             open_interfaces: self.forces.open_interfaces(),
+            start: self.ledger.start(),
             work: self.ledger.work(),
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
@@ -39,8 +40,12 @@ impl Solver {
             .compute(&self.state.position, &mut self.state.force)
             .map_err(|source| self.blow_up(source))?;
         self.power = self.loading.power(&self.state);
-        self.ledger
-            .restore(checkpoint.work, checkpoint.peak_work, checkpoint.peak_imbalance);
+        self.ledger.restore(
+            checkpoint.start,
+            checkpoint.work,
+            checkpoint.peak_work,
+            checkpoint.peak_imbalance,
+        );
         self.broken.clone_from(&checkpoint.broken_bonds);
         self.tracker = Tracker::new(&self.setting);
         if let Some(tracker) = &mut self.tracker {

@@ -41,10 +41,12 @@ impl std::fmt::Display for Ending {
 
 impl Until {
     /// Steps in all if neither the crack nor a change of the time step ends the run otherwise.
-    pub fn steps(&self, step: u64, time: f64, time_step: f64, rate: f64) -> u64 {
+    ///
+    /// `time_of` tells when a nominal strain is reached, ps.
+    pub fn steps(&self, step: u64, time: f64, time_step: f64, time_of: impl FnOnce(f64) -> f64) -> u64 {
         let end = self
             .strain
-            .map(|strain| strain / rate)
+            .map(time_of)
             .unwrap_or(f64::INFINITY)
             .min(self.time.unwrap_or(f64::INFINITY));
         step.saturating_add(((end - time) / time_step).round().max(0.0) as u64)
@@ -93,13 +95,13 @@ impl Watch {
         self.farthest = farthest;
     }
 
-    /// The first reason to stop at this moment; times and strains count within half a step.
-    pub fn ending(&self, until: &Until, time: f64, strain: f64, time_step: f64) -> Option<Ending> {
+    /// The first reason to stop at this moment; times and strains count within half a step, and a run takes one at least.
+    pub fn ending(&self, until: &Until, time: f64, time_step: f64, strain_at: impl Fn(f64) -> f64) -> Option<Ending> {
         let soon = time + 0.5 * time_step;
-        let strain_soon = if time > 0.0 { strain * (soon / time) } else { 0.0 };
+        let strain_soon = if time > 0.0 { strain_at(soon) } else { 0.0 };
         let set_out = self.farthest > self.notch + self.threshold;
         if until.strain.is_some_and(|end| strain_soon >= end) {
-            return Some(Ending::Strain(strain));
+            return Some(Ending::Strain(strain_at(time)));
         }
         if until.time.is_some_and(|end| soon >= end) {
             return Some(Ending::Time(time));
@@ -128,6 +130,10 @@ mod tests {
             ..setting()
         };
         Watch::new(&setting)
+    }
+
+    fn at_a_thousandth(time: f64) -> f64 {
+        1e-3 * time
     }
 
     fn setting() -> Setting {
@@ -161,13 +167,19 @@ mod tests {
             ..Until::default()
         };
         let watch = watch();
-        assert_eq!(watch.ending(&until, 19.0, 0.019, 0.2), None);
-        assert_eq!(watch.ending(&until, 19.95, 0.01995, 0.2), Some(Ending::Strain(0.01995)));
+        assert_eq!(watch.ending(&until, 19.0, 0.2, at_a_thousandth), None);
+        assert_eq!(
+            watch.ending(&until, 19.95, 0.2, at_a_thousandth),
+            Some(Ending::Strain(0.01995))
+        );
         let until = Until {
             time: Some(15.0),
             ..until
         };
-        assert_eq!(watch.ending(&until, 14.95, 0.01495, 0.2), Some(Ending::Time(14.95)));
+        assert_eq!(
+            watch.ending(&until, 14.95, 0.2, at_a_thousandth),
+            Some(Ending::Time(14.95))
+        );
     }
 
     #[test]
@@ -179,10 +191,13 @@ mod tests {
         };
         let mut watch = watch();
         watch.follow(29.0, 40.0);
-        assert_eq!(watch.ending(&until, 40.0, 0.04, 0.2), None);
+        assert_eq!(watch.ending(&until, 40.0, 0.2, at_a_thousandth), None);
         watch.follow(30.5, 41.0);
         watch.follow(20.0, 42.0);
-        assert_eq!(watch.ending(&until, 42.0, 0.042, 0.2), Some(Ending::CrackLength(30.5)));
+        assert_eq!(
+            watch.ending(&until, 42.0, 0.2, at_a_thousandth),
+            Some(Ending::CrackLength(30.5))
+        );
     }
 
     #[test]
@@ -194,9 +209,16 @@ mod tests {
         };
         let mut watch = watch();
         watch.follow(10.5, 5.0);
-        assert_eq!(watch.ending(&until, 90.0, 0.09, 0.2), None, "it only opened a bond");
+        assert_eq!(
+            watch.ending(&until, 90.0, 0.2, at_a_thousandth),
+            None,
+            "it only opened a bond"
+        );
         watch.follow(15.0, 91.0);
-        assert_eq!(watch.ending(&until, 100.0, 0.1, 0.2), None);
-        assert_eq!(watch.ending(&until, 111.0, 0.111, 0.2), Some(Ending::Arrest(20.0)));
+        assert_eq!(watch.ending(&until, 100.0, 0.2, at_a_thousandth), None);
+        assert_eq!(
+            watch.ending(&until, 111.0, 0.2, at_a_thousandth),
+            Some(Ending::Arrest(20.0))
+        );
     }
 }

@@ -20,7 +20,7 @@ const NEAREST: f64 = 0.75;
 
 /// Stability limit in the current state, ps.
 pub fn limit(forces: &mut Forces, state: &State) -> Result<f64, ForceError> {
-    let bound = forces.squared_frequency_bound(&state.position, &state.mass)?;
+    let bound = forces.squared_frequency_bound(state)?;
     Ok(stability_limit(bound))
 }
 

@@ -155,6 +155,8 @@ pub struct Run {
     pub time_step: TimeStep,
     pub summation: Summation,
     pub mass: MassMatrix,
+    /// Nominal strain under which the specimen comes to rest before it moves; `None`: it moves from the perfect lattice.
+    pub relax: Option<f64>,
 }
 
 /// The run stops at whichever of these comes first; at least one of `strain` and `time` is given.
@@ -181,11 +183,15 @@ pub enum TimeStep {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Summation {
     Exact,
+    Gauss { points: u32 },
+    Nodal,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum MassMatrix {
     Lumped,
+    /// This share of the consistent matrix; 1 is the consistent matrix itself.
+    Blend(f64),
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]

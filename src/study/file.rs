@@ -190,6 +190,8 @@ pub struct Run {
     pub time_step: Given<TimeStep>,
     pub summation: Given<Summation>,
     pub mass: Given<MassMatrix>,
+    /// The specimen comes to rest under a strain before it moves.
+    pub relax: Given<Relax>,
     /// Processes a case is shared between.
     pub ranks: Given<u32>,
     /// Threads of each process.
@@ -221,17 +223,33 @@ pub enum TimeStep {
     Given(Time),
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Summation {
     /// Every bond.
     Exact,
+    /// Of each string of bonds between two elements its ends and this many Gauss points between them.
+    Gauss(#[schemars(range(min = 1))] Given<u32>),
+    /// Only the bonds of nodes: cheap, and wrong at every strain that is not uniform.
+    Nodal,
 }
 
-#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MassMatrix {
+    /// A third of its mass at each node of a triangle.
     Lumped,
+    /// As the sites of a triangle move with its nodes.
+    Consistent,
+    /// This share of the consistent matrix, the rest lumped; 0.65 makes long waves most nearly as fast as they should be.
+    Blend(#[schemars(range(min = 0, max = 1))] Given<f64>),
+}
+
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Relax {
+    /// Nominal strain under which the run starts; 0 % lets the surfaces relax.
+    pub strain: Given<Fraction>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]

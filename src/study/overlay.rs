@@ -50,7 +50,8 @@ field_by_field! {
     Resolution { element regions }
     Crack { edge length }
     StrainRate { mode rate ramp }
-    Run { until time_step summation mass ranks threads checkpoint_every }
+    Run { until time_step summation mass relax ranks threads checkpoint_every }
+    Relax { strain }
     Until { strain time crack_length arrest }
     Probes { every }
 }

@@ -24,6 +24,7 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         position: [column(10), column(20)],
         velocity: [column(30), column(40)],
         open_interfaces: vec![0, 7, u32::MAX],
+        start: [number(6), number(7), number(8)],
         work: -0.0,
         peak_work: f64::INFINITY,
         peak_imbalance: number(2),

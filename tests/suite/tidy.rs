@@ -4,13 +4,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A module imports only from the floors below its own.
-const FLOORS: [&[&str]; 9] = [
-    &["units", "math"],
+const FLOORS: [&[&str]; 10] = [
+    &["units"],
     &["lattice", "potential", "study"],
     &["mesh", "material", "plan"],
     &["state", "store"],
-    &["forces", "integrator", "loading", "domain", "analysis", "executor"],
-    &["solver", "relaxation"],
+    &["forces", "integrator", "loading", "analysis", "executor"],
+    &["relaxation"],
+    &["solver"],
     &["record"],
     &["setup", "export", "report"],
     &["cli"],

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::super::affine::site_position;
 use super::super::interface::State;
+use super::super::summation::Summation;
 use super::super::{CHUNK, Planes};
 use super::{Contacts, Partner};
 use crate::material::Material;
@@ -15,6 +16,7 @@ pub struct Field<'a> {
     pub mesh: &'a Mesh,
     pub interfaces: &'a Interfaces,
     pub states: &'a [State],
+    pub summation: Summation,
 }
 
 impl Field<'_> {
@@ -67,11 +69,23 @@ impl Contacts {
         let grid = Grid::new(&candidates.position, radius);
         let lists = candidates.partner_lists(field, &grid, radius);
         let mut contacts = Self::from_lists(field.mesh, candidates, lists);
+        contacts.weigh_sites(field);
         contacts.half_skin = 0.5 * skin;
         contacts.spacing = material.spacing;
         contacts.reference = position.clone();
         contacts.searched = searched;
         contacts
+    }
+
+    fn weigh_sites(&mut self, field: &Field) {
+        if field.summation == Summation::Nodal {
+            let sites = self.element.iter().zip(&self.local);
+            let weight = sites.map(|(&element, &local)| {
+                let element = &field.mesh.elements[element as usize];
+                field.summation.site_weight(element, local.map(i32::from))
+            });
+            self.weight = weight.collect();
+        }
     }
 
     /// Keeps the sites that have partners and numbers them anew.

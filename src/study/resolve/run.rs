@@ -50,24 +50,79 @@ impl Check<'_> {
         };
         let (until, stops) = self.until(&values.until, place).unzip();
         let time_step = self.time_step(&values.time_step);
-        let summation = match &values.summation {
-            Given::Absent => Some(defaults::SUMMATION),
-            Given::Wrong(_) => None,
-            Given::Right(file::Summation::Exact, _) => Some(Summation::Exact),
-        };
-        let mass = match &values.mass {
-            Given::Absent => Some(defaults::MASS),
-            Given::Wrong(_) => None,
-            Given::Right(file::MassMatrix::Lumped, _) => Some(MassMatrix::Lumped),
-        };
-        let parts = until.zip(time_step).zip(summation.zip(mass));
-        let run = parts.map(|((until, time_step), (summation, mass))| Run {
+        let summation = self.summation(&values.summation);
+        let mass = self.mass_matrix(&values.mass);
+        let relax = self.relax(&values.relax, &values.until);
+        let parts = until.zip(time_step).zip(summation.zip(mass)).zip(relax);
+        let run = parts.map(|(((until, time_step), (summation, mass)), relax)| Run {
             until,
             time_step,
             summation,
             mass,
+            relax,
         });
         (run, stops)
+    }
+
+    fn summation(&self, given: &Given<file::Summation>) -> Option<Summation> {
+        match given {
+            Given::Absent => Some(defaults::SUMMATION),
+            Given::Wrong(_) => None,
+            Given::Right(file::Summation::Exact, _) => Some(Summation::Exact),
+            Given::Right(file::Summation::Nodal, _) => Some(Summation::Nodal),
+            Given::Right(file::Summation::Gauss(points), _) => {
+                let points = self.counted(points, "summation.gauss")??;
+                Some(Summation::Gauss { points })
+            }
+        }
+    }
+
+    fn mass_matrix(&self, given: &Given<file::MassMatrix>) -> Option<MassMatrix> {
+        match given {
+            Given::Absent => Some(defaults::MASS),
+            Given::Wrong(_) => None,
+            Given::Right(file::MassMatrix::Lumped, _) => Some(MassMatrix::Lumped),
+            Given::Right(file::MassMatrix::Consistent, _) => Some(MassMatrix::Blend(1.0)),
+            Given::Right(file::MassMatrix::Blend(share), _) => {
+                let Given::Right(share, place) = *share else {
+                    return None;
+                };
+                if share == 0.0 {
+                    return Some(MassMatrix::Lumped);
+                }
+                if share > 0.0 && share <= 1.0 {
+                    return Some(MassMatrix::Blend(share));
+                }
+                let message =
+                    format!("the share of the consistent mass matrix must be from 0 to 1, and {share} is not");
+                self.add(Finding::at(place, message).help("write `mass: {blend: 0.65}`, `lumped` or `consistent`"));
+                None
+            }
+        }
+    }
+
+    /// The strain of the start; the outer `None` is a mistake.
+    fn relax(&self, given: &Given<file::Relax>, until: &Given<file::Until>) -> Option<Option<f64>> {
+        let (values, section) = match given {
+            Given::Absent => return Some(None),
+            Given::Wrong(_) => return None,
+            Given::Right(values, place) => (values, *place),
+        };
+        let (start, place) = self.need(&values.strain, section, "relax.strain", "0.4 %")?;
+        let end = until.right().and_then(|until| match until.strain {
+            Given::Right(end, place) => Some((end, place)),
+            _ => None,
+        });
+        if let Some((end, given)) = end.filter(|(end, _)| end.value <= start.value) {
+            let message = format!("the run would stop at once: it starts from a strain of {start} and stops at {end}");
+            self.add(
+                Finding::at(place, message)
+                    .with(given, "the end")
+                    .help("start from a lower strain"),
+            );
+            return None;
+        }
+        Some(Some(start.value))
     }
 
     fn until(&self, given: &Given<file::Until>, run: Place) -> Option<(Until, CrackStops)> {

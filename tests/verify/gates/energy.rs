@@ -1,11 +1,11 @@
 //! Forces are the gradient of the energy, and the energy knows no place and no direction.
 
-use cgaft::forces::{Forces, Planes};
+use cgaft::forces::{Forces, Planes, Summation};
 use cgaft::material::Material;
 use cgaft::mesh::Mesh;
 use cgaft::relaxation::bond_strength;
 
-use super::{largest, zeros};
+use super::{SMOOTH, largest, smooth, zeros};
 use crate::verify::specimens::{Noise, all_materials, all_meshes, states};
 use crate::verify::table::{Chapter, Gate};
 
@@ -78,6 +78,42 @@ fn the_force_is_minus_the_gradient_of_the_energy() {
         assert!(looked_at > 100.0, "{name}: only {looked_at} components");
         let claim = "force + dE/du over a bond's strength, 6 meshes in 5 states";
         gate.below(claim, name, worst, GRADIENT);
+    }
+    gate.close();
+}
+
+#[test]
+fn every_rule_of_summation_is_the_gradient_of_its_own_energy() {
+    // [Deng2011] Eq. (3-31) and [Deng2011] Eq. (3-33)
+    let mut gate = Gate::new(Chapter::Energy, "1 gradient of the rules");
+    let material = smooth();
+    for (rule, summation) in [("gauss 1", Summation::Gauss { points: 1 }), ("nodal", Summation::Nodal)] {
+        let [mut worst, mut looked_at] = [0.0f64, 0.0];
+        let mut noise = Noise(6);
+        for (mesh_name, mesh) in all_meshes(material.spacing) {
+            for (state, mut position) in states(&mesh).into_iter().filter(|(state, _)| *state != "rubble") {
+                let mesh = without_touching_faces(mesh.clone(), state);
+                let mut forces = Forces::with_summation(mesh.clone(), material, summation);
+                let mut force = zeros(&mesh);
+                forces.compute(&position, &mut force).expect("the state is sound");
+                let scale = bond_strength(&material).max(largest(&force));
+                for sample in 0..SAMPLES {
+                    let node = (0.5 * (1.0 + noise.next()) * (mesh.node_count() - 1) as f64) as usize;
+                    if let Some(slope) = slope(&mut forces, &mut position, sample % 2, node) {
+                        let error = (slope - force[sample % 2][node]).abs() / scale;
+                        assert!(
+                            error <= GRADIENT,
+                            "{rule}, {mesh_name}, {state}, node {node}: {error:e}"
+                        );
+                        worst = worst.max(error);
+                        looked_at += 1.0;
+                    }
+                }
+            }
+        }
+        assert!(looked_at > 100.0, "{rule}: only {looked_at} components");
+        let claim = format!("force + dE/du over a bond's strength, {rule} summation");
+        gate.below(&claim, SMOOTH, worst, GRADIENT);
     }
     gate.close();
 }

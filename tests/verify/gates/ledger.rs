@@ -5,6 +5,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
 use cgaft::analysis::series::{BondEvent, Probe, Series};
+use cgaft::forces::Summation;
 use cgaft::loading::{Grip, Stretching};
 use cgaft::mesh::Mesh;
 use cgaft::solver::checkpoint::Checkpoint;
@@ -46,6 +47,9 @@ pub fn solver(mesh: Mesh, rate: f64, fraction: f64, until: Until, probe_every: f
     let loading = Stretching::new(&mesh, rate, Grip::Clamped, true);
     let settings = Settings {
         time_step: TimeStep::Auto { fraction },
+        summation: Summation::Exact,
+        consistent_mass: 0.0,
+        relax: false,
         until,
         probe_every,
         snapshot_every: None,
