@@ -156,6 +156,7 @@ pub struct Run {
     pub summation: Summation,
     pub mass: MassMatrix,
     /// Nominal strain under which the specimen comes to rest before it moves; `None`: it moves from the perfect lattice.
+    #[serde(skip_serializing_if = "Option::is_none")]
     pub relax: Option<f64>,
 }
 

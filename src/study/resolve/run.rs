@@ -71,7 +71,14 @@ impl Check<'_> {
             Given::Right(file::Summation::Exact, _) => Some(Summation::Exact),
             Given::Right(file::Summation::Nodal, _) => Some(Summation::Nodal),
             Given::Right(file::Summation::Gauss(points), _) => {
-                let points = self.counted(points, "summation.gauss")??;
+                let Given::Right(points, place) = *points else {
+                    return None;
+                };
+                if points == 0 {
+                    let message = "a string without Gauss points would be held at its ends alone";
+                    self.add(Finding::at(place, message).help("write `summation: {gauss: 2}`, `exact` or `nodal`"));
+                    return None;
+                }
                 Some(Summation::Gauss { points })
             }
         }
