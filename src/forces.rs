@@ -8,10 +8,14 @@
 //! on the number of threads or on when neighbour lists were made.
 
 mod affine;
+mod assembly;
 mod bonds;
 mod bulk;
 mod contact;
+mod intact;
 mod interface;
+mod lanes;
+mod maps;
 mod measure;
 pub mod referee;
 mod stiffness;
@@ -23,8 +27,6 @@ pub use summation::Summation;
 
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
-
 use crate::lattice::triangular;
 use crate::material::Material;
 use crate::mesh::Mesh;
@@ -32,7 +34,9 @@ use crate::mesh::interfaces::Interfaces;
 use crate::potential::{CutPotential, PairShape, with_law};
 use bulk::BulkBonds;
 use contact::Contacts;
-use interface::{InterfaceForce, State};
+use intact::IntactForces;
+use interface::State;
+use maps::Maps;
 use summation::SampledStrings;
 
 /// Node positions or forces: x and y, one entry a node.
@@ -69,7 +73,8 @@ pub struct Forces {
     /// How the interfaces stand; a state is never left for a tighter one.
     states: Vec<State>,
     contacts: Contacts,
-    interface_forces: Vec<InterfaceForce>,
+    maps: Maps,
+    intact: IntactForces,
     /// No sound coordinate is larger, nm.
     farthest: f64,
     searches: u64,
@@ -98,7 +103,8 @@ impl Forces {
         let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
         let bulk = BulkBonds::new(&mesh, listed, summation);
         let strings = SampledStrings::new(&interfaces, summation);
-        let interface_forces = vec![InterfaceForce::default(); interfaces.pairs.len()];
+        let maps = Maps::new(&mesh);
+        let intact = IntactForces::new(&interfaces, &strings);
         let reference = mesh.node_positions();
         let largest = reference
             .iter()
@@ -113,7 +119,8 @@ impl Forces {
             bulk,
             states,
             contacts: Contacts::default(),
-            interface_forces,
+            maps,
+            intact,
             farthest: Self::FARTHEST * largest,
             searches: 0,
             search_time: Duration::ZERO,
@@ -165,7 +172,7 @@ impl Forces {
             self.sum_interfaces(&law, position);
             self.prepare_contacts(position)?;
             self.contacts.sum(&law, &self.mesh, self.material.spacing, position);
-            self.assemble(&law, position, force);
+            assembly::assemble(self, &law, position, force);
         });
         Ok(())
     }
@@ -178,37 +185,24 @@ impl Forces {
 
     /// Sums the strings of interfaces that are not open, and notes those that loosen or open.
     fn sum_interfaces<S: PairShape>(&mut self, law: &CutPotential<S>, position: &Planes) {
-        let limit = interface::IntactLimit {
-            cutoff: law.cutoff(),
-            unlisted: self.unlisted_length(),
-            spacing: self.material.spacing,
-        };
-        let (mesh, interfaces, states, strings) = (&self.mesh, &self.interfaces, &self.states, &self.strings);
-        let changed: Vec<(usize, State)> = self
-            .interface_forces
-            .par_chunks_mut(CHUNK)
-            .enumerate()
-            .flat_map_iter(|(chunk, sums)| {
-                let mut changed = Vec::new();
-                for (k, sum) in sums.iter_mut().enumerate() {
-                    let number = chunk * CHUNK + k;
-                    if states[number] == State::Open {
-                        continue;
-                    }
-                    let pair = interface::Pair::new(mesh, interfaces, number, position);
-                    let gap = pair.gap();
-                    let state = pair.state(&limit, gap);
-                    if state > states[number] {
-                        changed.push((number, state));
-                    }
-                    if state != State::Open {
-                        let kind = interfaces.pairs[number].kind;
-                        *sum = pair.force(law, strings.of(kind, gap, limit.spacing));
-                    }
-                }
-                changed
-            })
-            .collect();
+        self.maps.update(position);
+        let [cutoff, spacing] = [law.cutoff(), self.material.spacing];
+        let unlisted = self.unlisted_length();
+        let changed = self.intact.sum(&intact::Field {
+            law,
+            limit: interface::IntactLimit {
+                cutoff,
+                unlisted,
+                spacing,
+                quick: interface::QuickTest::new(unlisted, cutoff, spacing),
+            },
+            mesh: &self.mesh,
+            interfaces: &self.interfaces,
+            strings: &self.strings,
+            states: &self.states,
+            maps: &self.maps,
+            position,
+        });
         if !changed.is_empty() {
             changed
                 .into_iter()
@@ -252,58 +246,5 @@ impl Forces {
             }
         }
         Ok(())
-    }
-
-    /// Adds up bulk, interfaces and contacts on the nodes, element by element.
-    fn assemble<S: PairShape>(&self, law: &CutPotential<S>, position: &Planes, force: &mut Planes) {
-        let triangles = self.mesh.triangles;
-        let [force_x, force_y] = force;
-        let (triangle_x, atom_x) = force_x.split_at_mut(3 * triangles);
-        let (triangle_y, atom_y) = force_y.split_at_mut(3 * triangles);
-        let planes = triangle_x
-            .par_chunks_mut(3 * CHUNK)
-            .zip(triangle_y.par_chunks_mut(3 * CHUNK));
-        planes.enumerate().for_each(|(chunk, (x, y))| {
-            for k in 0..x.len() / 3 {
-                let nodal = self.triangle_force(law, chunk * CHUNK + k, position);
-                for (node, [fx, fy]) in nodal.into_iter().enumerate() {
-                    x[3 * k + node] = fx;
-                    y[3 * k + node] = fy;
-                }
-            }
-        });
-        let planes = atom_x.par_chunks_mut(CHUNK).zip(atom_y.par_chunks_mut(CHUNK));
-        planes.enumerate().for_each(|(chunk, (x, y))| {
-            for k in 0..x.len() {
-                let element = triangles + chunk * CHUNK + k;
-                let sites = self.contacts.sites_of(element);
-                [x[k], y[k]] = if sites.is_empty() {
-                    [0.0, 0.0]
-                } else {
-                    self.contacts.force_on(sites.start)
-                };
-            }
-        });
-    }
-
-    fn triangle_force<S: PairShape>(&self, law: &CutPotential<S>, element: usize, position: &Planes) -> [[f64; 2]; 3] {
-        let shape = &self.mesh.elements[element];
-        let affine = Affine::of_triangle(shape.size, self.mesh.first_node(element), position);
-        let mut nodal = self.bulk.force(law, shape.size, &affine, self.material.spacing);
-        for &number in self.interfaces.of(element) {
-            if self.is_open(number as usize) {
-                continue;
-            }
-            let is_first = self.interfaces.pairs[number as usize].first as usize == element;
-            let sum = &self.interface_forces[number as usize];
-            let side = if is_first { &sum.first } else { &sum.second };
-            (0..3).for_each(|k| (0..2).for_each(|axis| nodal[k][axis] += side[k][axis]));
-        }
-        for site in self.contacts.sites_of(element) {
-            let weights = shape.shape_functions(self.contacts.local(site));
-            let force = self.contacts.force_on(site);
-            (0..3).for_each(|k| (0..2).for_each(|axis| nodal[k][axis] += weights[k] * force[axis]));
-        }
-        nodal
     }
 }

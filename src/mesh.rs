@@ -35,7 +35,8 @@ pub struct Plan {
 #[derive(Clone, Debug)]
 pub struct Mesh {
     pub sites: SiteSet,
-    /// Triangles by falling size and from bottom to top, then the atoms.
+    /// Triangles by falling size and from bottom to top, in every row the upright ones before the inverted ones; then the
+    /// atoms.
     pub elements: Vec<Element>,
     /// Number of triangles among the elements.
     pub triangles: usize,

@@ -59,7 +59,7 @@ impl Affine {
 }
 
 /// The unit vector along y is (2 a2 - a1)/sqrt(3) in terms of the lattice vectors.
-const INVERSE_ROOT_3: f64 = 0.577_350_269_189_625_8;
+pub const INVERSE_ROOT_3: f64 = 0.577_350_269_189_625_8;
 
 /// Smallest factor by which a deformation gradient (columns) stretches any vector.
 #[inline(always)]

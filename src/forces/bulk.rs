@@ -1,6 +1,8 @@
 //! Bonds inside triangles: all bonds of one lattice vector are the same vector, so each costs one evaluation.
 
 use super::affine::{Affine, smallest_stretch};
+use super::lanes::Lanes;
+use super::maps::{MapLanes, stretch_at_least};
 use super::summation::Summation;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
@@ -13,6 +15,34 @@ pub struct BulkBond {
     pub count: f64,
     /// Length in spacings.
     pub length: f64,
+}
+
+/// How far bonds reach in a lattice, nm.
+pub struct Reach {
+    pub cutoff: f64,
+    pub spacing: f64,
+}
+
+/// Forces of bonds inside triangles on their nodes, x and y of each.
+#[inline(always)]
+pub fn force<S: PairShape, const W: usize>(
+    law: &CutPotential<S>,
+    size: i32,
+    map: &MapLanes<W>,
+    bonds: &[BulkBond],
+) -> [Lanes<W>; 6] {
+    let [mut first, mut second] = [[Lanes::default(); 2]; 2];
+    for bond in bonds {
+        let [x, y] = map.vector(bond.local);
+        let pull = Lanes(law.slopes(x.mul_add(x, y * y).0)) * -bond.count;
+        let [p, q] = bond.local.map(|step| pull * f64::from(step));
+        first = [p.mul_add(x, first[0]), p.mul_add(y, first[1])];
+        second = [q.mul_add(x, second[0]), q.mul_add(y, second[1])];
+    }
+    let edge = 1.0 / f64::from(size - 1);
+    let [first, second] = [first, second].map(|sum| [sum[0] * edge, sum[1] * edge]);
+    let origin = [0, 1].map(|axis| (first[axis] + second[axis]) * -1.0);
+    [origin[0], origin[1], first[0], first[1], second[0], second[1]]
 }
 
 /// For every triangle size in a mesh its lattice vectors by length; the first `listed` are always summed.
@@ -45,15 +75,17 @@ impl BulkBonds {
         }
     }
 
+    #[inline(always)]
+    fn table(&self, size: i32) -> &(i32, usize, Vec<BulkBond>) {
+        let table = self.by_size.iter().find(|table| table.0 == size);
+        table.expect("every size has its table")
+    }
+
     /// The lattice vectors of a triangle that may be within the cutoff: those listed, and under strong deformation as
     /// many more as the smallest stretch allows.
     #[inline(always)]
     pub fn within(&self, size: i32, affine: &Affine, spacing: f64, cutoff: f64) -> &[BulkBond] {
-        let (_, listed, bonds) = self
-            .by_size
-            .iter()
-            .find(|table| table.0 == size)
-            .expect("every size has its table");
+        let (_, listed, bonds) = self.table(size);
         let stretch = smallest_stretch(affine.deformation_gradient(1, spacing)) * spacing;
         let mut needed = *listed;
         while needed < bonds.len() && bonds[needed].length * stretch < cutoff {
@@ -62,25 +94,16 @@ impl BulkBonds {
         &bonds[..needed]
     }
 
-    /// Forces of the bonds inside a triangle on its nodes.
+    /// The lattice vectors within the cutoff of triangles of one size side by side; `None` where some of them are so
+    /// strongly deformed that each has its own.
     #[inline(always)]
-    pub fn force<S: PairShape>(
-        &self,
-        law: &CutPotential<S>,
-        size: i32,
-        affine: &Affine,
-        spacing: f64,
-    ) -> [[f64; 2]; 3] {
-        let [mut first, mut second] = [[0.0; 2]; 2];
-        for bond in self.within(size, affine, spacing, law.cutoff()) {
-            let [x, y] = affine.vector(bond.local);
-            let pull = bond.count * law.slope(x * x + y * y);
-            let [p, q] = [f64::from(bond.local[0]) * pull, f64::from(bond.local[1]) * pull];
-            first = [first[0] - p * x, first[1] - p * y];
-            second = [second[0] - q * x, second[1] - q * y];
-        }
-        let edge = 1.0 / f64::from(size - 1);
-        let [first, second] = [first, second].map(|sum| [sum[0] * edge, sum[1] * edge]);
-        [[-first[0] - second[0], -first[1] - second[1]], first, second]
+    pub fn within_all<const W: usize>(&self, size: i32, map: &MapLanes<W>, reach: &Reach) -> Option<&[BulkBond]> {
+        let (_, listed, bonds) = self.table(size);
+        let enough = bonds.get(*listed).is_none_or(|next| {
+            // A little more than is needed, so that rounding does not matter.
+            let stretch = 1.0001 * reach.cutoff / (next.length * reach.spacing);
+            stretch_at_least(map.deformation_gradient(1, reach.spacing), stretch)
+        });
+        enough.then(|| &bonds[..*listed])
     }
 }

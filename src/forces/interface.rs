@@ -2,18 +2,13 @@
 
 use super::Planes;
 use super::affine::{Affine, smallest_stretch};
+use super::lanes::Lanes;
+use super::maps::{MapLanes, stretch_at_least};
 use super::summation::{Sample, SampledString};
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
-use crate::mesh::interfaces::{BondString, Interfaces};
+use crate::mesh::interfaces::{BondString, InterfaceKind, Interfaces};
 use crate::potential::{CutPotential, PairShape};
-
-/// Forces that two triangles put on each other's nodes, eV/nm.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct InterfaceForce {
-    pub first: [[f64; 2]; 3],
-    pub second: [[f64; 2]; 3],
-}
 
 /// How two neighbouring triangles stand to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -35,6 +30,58 @@ pub struct IntactLimit {
     pub unlisted: f64,
     /// nm
     pub spacing: f64,
+    /// `None` where the cutoff leaves no room for it.
+    pub quick: Option<QuickTest>,
+}
+
+/// A test that few intact interfaces fail, and that takes no roots: whatever passes it is tight.
+#[derive(Clone, Copy)]
+pub struct QuickTest {
+    squared_gap: f64,
+    squared_difference: f64,
+}
+
+impl QuickTest {
+    /// Largest gap, in spacings, largest difference of the gradients, and smallest stretch.
+    const GAP: f64 = 0.03;
+    const DIFFERENCE: f64 = 0.02;
+    const STRETCH: f64 = 0.97;
+
+    /// `unlisted` in spacings, lengths in nm.
+    pub fn new(unlisted: f64, cutoff: f64, spacing: f64) -> Option<Self> {
+        let displaced = (Self::GAP + Self::DIFFERENCE) * spacing;
+        let stretch = Self::STRETCH - IntactLimit::LEVER * Self::DIFFERENCE;
+        let beyond = stretch * unlisted * spacing - cutoff;
+        // A little less than what the full test asks, so that rounding does not matter.
+        let is_tight = displaced <= 0.99 * (IntactLimit::LOOSE * spacing).min(0.5 * beyond);
+        is_tight.then_some(Self {
+            squared_gap: (Self::GAP * spacing).powi(2),
+            squared_difference: Self::DIFFERENCE.powi(2),
+        })
+    }
+
+    /// Whether all of some interfaces pass, by the gradients of their first and second triangles.
+    #[inline(always)]
+    pub fn holds<const W: usize>(&self, [first, second]: [[[Lanes<W>; 2]; 2]; 2], squared_gap: Lanes<W>) -> bool {
+        let mut squared_difference = Lanes::default();
+        for k in 0..2 {
+            for axis in 0..2 {
+                let difference = second[k][axis] - first[k][axis];
+                squared_difference = difference.mul_add(difference, squared_difference);
+            }
+        }
+        squared_gap.every(|gap| gap <= self.squared_gap)
+            && squared_difference.every(|difference| difference <= self.squared_difference)
+            && stretch_at_least(second, Self::STRETCH)
+    }
+}
+
+impl IntactLimit {
+    /// Triangles that face along an edge need 1, those that meet at a corner over a 60 degree wedge 1/sin 60.
+    const LEVER: f64 = 1.5;
+    /// In spacings. While all neighbours of a triangle are closer to their lattice places than this, nothing else
+    /// comes within the cutoff without all but touching one of them.
+    const LOOSE: f64 = 0.2;
 }
 
 /// Two neighbouring triangles as they are now.
@@ -71,11 +118,6 @@ impl<'a> Pair<'a> {
     /// - |g| - |D| spacing is.
     #[inline(always)]
     pub fn state(&self, limit: &IntactLimit, gap: f64) -> State {
-        /// Triangles that face along an edge need 1, those that meet at a corner over a 60 degree wedge 1/sin 60.
-        const LEVER: f64 = 1.5;
-        /// In spacings. While all neighbours of a triangle are closer to their lattice places than this, nothing else
-        /// comes within the cutoff without all but touching one of them.
-        const LOOSE: f64 = 0.2;
         let first = self.first_map.deformation_gradient(self.first.sign, limit.spacing);
         let second = self.second_map.deformation_gradient(self.second.sign, limit.spacing);
         let mut squared_difference = 0.0;
@@ -86,13 +128,15 @@ impl<'a> Pair<'a> {
             }
         }
         let difference = squared_difference.sqrt();
-        let stretch = smallest_stretch(second) - LEVER * difference;
+        let stretch = smallest_stretch(second) - IntactLimit::LEVER * difference;
         let spacing = limit.spacing;
         let displaced = gap + difference * spacing;
         let beyond = stretch > 0.0 && stretch * limit.unlisted * spacing - displaced >= limit.cutoff;
         match beyond {
             // Two such neighbours in a row must not bring what lies beyond within the cutoff either.
-            true if displaced <= (LOOSE * spacing).min(0.5 * (stretch * limit.unlisted * spacing - limit.cutoff)) => {
+            true if displaced
+                <= (IntactLimit::LOOSE * spacing).min(0.5 * (stretch * limit.unlisted * spacing - limit.cutoff)) =>
+            {
                 State::Tight
             }
             true => State::Loose,
@@ -130,56 +174,108 @@ impl<'a> Pair<'a> {
         ];
         [[b[0] - a[0], b[1] - a[1]], [db[0] - da[0], db[1] - da[1]]]
     }
+}
 
-    /// Forces of all strings on the nodes of both triangles: the weights along a string are linear too, so that the
-    /// sums of the bond forces and of their first moments say it all.
+/// Forces of strings on the nodes of both triangles, first and second: x and y of each node, eV/nm.
+#[derive(Clone, Copy)]
+pub struct StringForces<const W: usize>(pub [Lanes<W>; 12]);
+
+impl<const W: usize> Default for StringForces<W> {
     #[inline(always)]
-    pub fn force<S: PairShape>(&self, law: &CutPotential<S>, strings: &[SampledString]) -> InterfaceForce {
-        let mut first = NodalSum::default();
-        let mut second = NodalSum::default();
-        for SampledString { string, samples } in strings {
-            let [start, step] = self.string_vectors(string);
-            let [mut sum, mut moment] = [[0.0; 2]; 2];
-            for &Sample { at: t, weight } in samples {
-                let [x, y] = [start[0] + t * step[0], start[1] + t * step[1]];
-                let pull = weight * law.slope(x * x + y * y);
-                let [x, y] = [pull * x, pull * y];
-                sum = [sum[0] + x, sum[1] + y];
-                moment = [moment[0] + t * x, moment[1] + t * y];
-            }
-            first.add(string.first, string.first_step, sum, moment, 1.0);
-            second.add(string.second, string.second_step, sum, moment, -1.0);
-        }
-        InterfaceForce {
-            first: first.on_nodes(self.first.size),
-            second: second.on_nodes(self.second.size),
-        }
+    fn default() -> Self {
+        Self([Lanes::default(); 12])
     }
+}
+
+impl<const W: usize> StringForces<W> {
+    #[inline(always)]
+    pub fn set_lane(&mut self, lane: usize, alone: &StringForces<1>) {
+        (0..12).for_each(|plane| self.0[plane].0[lane] = alone.0[plane][0]);
+    }
+}
+
+/// The larger squared distance between the places where two triangles would put one and the same lattice site, at either
+/// end of where they face each other, nm^2.
+#[inline(always)]
+pub fn squared_gap<const W: usize>(kind: &InterfaceKind, first: &MapLanes<W>, second: &MapLanes<W>) -> Lanes<W> {
+    let [a, b] = kind.anchors.map(|anchor| {
+        let [one, other] = kind.elements;
+        let site = [one.column + anchor[0], one.row + anchor[1]];
+        let [a, b] = [first.at(one.local(site)), second.at(other.local(site))];
+        let [x, y] = [b[0] - a[0], b[1] - a[1]];
+        x.mul_add(x, y * y)
+    });
+    Lanes(std::array::from_fn(
+        |lane| if a[lane] > b[lane] { a[lane] } else { b[lane] },
+    ))
+}
+
+/// Forces of all strings on the nodes of both triangles: the weights along a string are linear too, so that the sums of
+/// the bond forces and of their first moments say it all.
+#[inline(always)]
+pub fn string_forces<S: PairShape, const W: usize>(
+    law: &CutPotential<S>,
+    kind: &InterfaceKind,
+    first_map: &MapLanes<W>,
+    second_map: &MapLanes<W>,
+    strings: &[SampledString],
+) -> StringForces<W> {
+    let mut first = NodalSum::default();
+    let mut second = NodalSum::default();
+    for SampledString { string, samples } in strings {
+        let [a, b] = [first_map.at(string.first), second_map.at(string.second)];
+        let [da, db] = [
+            first_map.vector(string.first_step),
+            second_map.vector(string.second_step),
+        ];
+        let start = [b[0] - a[0], b[1] - a[1]];
+        let step = [db[0] - da[0], db[1] - da[1]];
+        let [mut sum, mut moment] = [[Lanes::default(); 2]; 2];
+        for &Sample { at, weight } in samples {
+            let [x, y] = [0, 1].map(|axis| step[axis].times_add(at, start[axis]));
+            let pull = Lanes(law.slopes(x.mul_add(x, y * y).0)) * weight;
+            let lever = pull * at;
+            sum = [pull.mul_add(x, sum[0]), pull.mul_add(y, sum[1])];
+            moment = [lever.mul_add(x, moment[0]), lever.mul_add(y, moment[1])];
+        }
+        first.add(string.first, string.first_step, sum, moment, 1.0);
+        second.add(string.second, string.second_step, sum, moment, -1.0);
+    }
+    let [first, second] =
+        [(first, kind.elements[0]), (second, kind.elements[1])].map(|(sum, element)| sum.on_nodes(element.size));
+    let mut forces = StringForces::default();
+    for plane in 0..6 {
+        forces.0[plane] = first[plane];
+        forces.0[6 + plane] = second[plane];
+    }
+    forces
 }
 
 /// Force on a triangle and its moments with the two local coordinates.
-#[derive(Default)]
-struct NodalSum {
-    total: [f64; 2],
-    along: [[f64; 2]; 2],
+#[derive(Clone, Copy, Default)]
+struct NodalSum<const W: usize> {
+    total: [Lanes<W>; 2],
+    along: [[Lanes<W>; 2]; 2],
 }
 
-impl NodalSum {
+impl<const W: usize> NodalSum<W> {
     #[inline(always)]
-    fn add(&mut self, start: [i32; 2], step: [i32; 2], sum: [f64; 2], moment: [f64; 2], sign: f64) {
+    fn add(&mut self, start: [i32; 2], step: [i32; 2], sum: [Lanes<W>; 2], moment: [Lanes<W>; 2], sign: f64) {
         for axis in 0..2 {
-            self.total[axis] += sign * sum[axis];
+            self.total[axis] = sum[axis].times_add(sign, self.total[axis]);
             for k in 0..2 {
-                let weighted = f64::from(start[k]) * sum[axis] + f64::from(step[k]) * moment[axis];
-                self.along[k][axis] += sign * weighted;
+                let from_start = sum[axis].times_add(sign * f64::from(start[k]), self.along[k][axis]);
+                self.along[k][axis] = moment[axis].times_add(sign * f64::from(step[k]), from_start);
             }
         }
     }
 
+    /// x and y of each node.
     #[inline(always)]
-    fn on_nodes(&self, size: i32) -> [[f64; 2]; 3] {
+    fn on_nodes(&self, size: i32) -> [Lanes<W>; 6] {
         let edge = 1.0 / f64::from(size - 1);
         let [p, q] = self.along.map(|sum| [sum[0] * edge, sum[1] * edge]);
-        [[self.total[0] - p[0] - q[0], self.total[1] - p[1] - q[1]], p, q]
+        let origin = [0, 1].map(|axis| self.total[axis] - p[axis] - q[axis]);
+        [origin[0], origin[1], p[0], p[1], q[0], q[1]]
     }
 }

@@ -128,7 +128,10 @@ impl Forces {
         let pair = interface::Pair::new(&self.mesh, &self.interfaces, number, position);
         let is_first = self.interfaces.pairs[number].first as usize == element;
         let kind = self.interfaces.pairs[number].kind;
-        for SampledString { string, samples } in self.strings.of(kind, pair.gap(), self.material.spacing) {
+        for SampledString { string, samples } in self.strings.of(
+            kind,
+            pair.gap().powi(2) <= self.strings.hardly_open(self.material.spacing),
+        ) {
             let [start, step] = pair.string_vectors(string);
             let (site, site_step) = if is_first {
                 (string.first, string.first_step)

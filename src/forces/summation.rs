@@ -105,18 +105,33 @@ impl SampledStrings {
         }
     }
 
-    /// The strings of a kind of interface whose two triangles are this far (nm) from fitting together.
+    /// Squared gap of two triangles, nm^2, up to which they count as hardly open.
     ///
     /// Along a string that bends open the energy is no longer close to a polynomial: a gap of a twentieth of a spacing at
     /// one end changes the sum of two Gauss points by 1e-4 of a bond, one of a fifth by some hundredths. The choice
     /// depends on positions alone, so that the energy remains a function of them.
     #[inline(always)]
-    pub fn of(&self, kind: u32, gap: f64, spacing: f64) -> &[SampledString] {
+    pub fn hardly_open(&self, spacing: f64) -> f64 {
         const HARDLY_OPEN: f64 = 0.05;
+        match self.coarse {
+            Some(_) => (HARDLY_OPEN * spacing) * (HARDLY_OPEN * spacing),
+            None => f64::INFINITY,
+        }
+    }
+
+    /// The strings of a kind of interface.
+    #[inline(always)]
+    pub fn of(&self, kind: u32, hardly_open: bool) -> &[SampledString] {
         match &self.coarse {
-            Some(coarse) if gap <= HARDLY_OPEN * spacing => &coarse[kind as usize],
+            Some(coarse) if hardly_open => &coarse[kind as usize],
             _ => &self.fine[kind as usize],
         }
+    }
+
+    /// Whether a kind of interface has strings at all.
+    #[inline(always)]
+    pub fn are_there(&self, kind: u32) -> bool {
+        !self.fine[kind as usize].is_empty()
     }
 }
 

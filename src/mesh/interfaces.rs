@@ -56,7 +56,7 @@ pub struct Interface {
 #[derive(Clone, Debug, Default)]
 pub struct Interfaces {
     pub kinds: Vec<InterfaceKind>,
-    /// Ordered by (first, second), first < second.
+    /// first < second; those that are alike and follow each other in the mesh do so here.
     pub pairs: Vec<Interface>,
     /// For every triangle where its part of `of_triangle` starts, and the length at the end.
     start: Vec<u32>,
@@ -68,6 +68,9 @@ pub struct Interfaces {
 
 /// Triangles whose sites come this close (in spacings) count as neighbours: the third shell.
 const REACH: f64 = 2.0;
+
+/// Interfaces stay together with those of this many triangles, so that what belongs together in space does in memory.
+const NEAR: usize = 2048;
 
 type KindKey = (i32, i32, i32, i32, i32, i32);
 
@@ -107,6 +110,15 @@ impl Interfaces {
                 });
             }
         }
+        let no_strings: Vec<bool> = found.kinds.iter().map(|kind| kind.strings.is_empty()).collect();
+        found.pairs.sort_by_key(|pair| {
+            (
+                no_strings[pair.kind as usize],
+                pair.first as usize / NEAR,
+                pair.kind,
+                pair.first,
+            )
+        });
         found.index_by_triangle(mesh.triangles);
         found
     }
@@ -122,18 +134,24 @@ impl Interfaces {
         }
         let mut of_triangle = vec![0; counts[triangles] as usize];
         let mut next = counts.clone();
-        for second_pass in [true, false] {
-            for (number, pair) in self.pairs.iter().enumerate() {
-                let owner = if second_pass { pair.second } else { pair.first } as usize;
+        for (number, pair) in self.pairs.iter().enumerate() {
+            for owner in [pair.first as usize, pair.second as usize] {
                 of_triangle[next[owner] as usize] = number as u32;
                 next[owner] += 1;
             }
+        }
+        for triangle in 0..triangles {
+            let neighbour = |&number: &u32| {
+                let pair = self.pairs[number as usize];
+                pair.first ^ pair.second ^ triangle as u32
+            };
+            of_triangle[counts[triangle] as usize..counts[triangle + 1] as usize].sort_unstable_by_key(neighbour);
         }
         self.start = counts;
         self.of_triangle = of_triangle;
     }
 
-    /// The interfaces of a triangle: those in which it is the second by the number of the first, then the others.
+    /// The interfaces of a triangle by the number of the neighbour.
     #[inline(always)]
     pub fn of(&self, triangle: usize) -> &[u32] {
         &self.of_triangle[self.start[triangle] as usize..self.start[triangle + 1] as usize]

@@ -29,7 +29,7 @@ pub fn tile(sites: &SiteSet, target: Vec<u16>, breaks: &[i32]) -> Vec<Element> {
     }
     tiling.fill_with_atoms();
     let mut elements = tiling.elements;
-    elements.sort_by_key(|e| (-e.size, e.lowest_row(), e.lowest_column(), e.sign));
+    elements.sort_by_key(|e| (-e.size, e.lowest_row(), -e.sign, e.lowest_column()));
     elements
 }
 

@@ -83,6 +83,22 @@ impl<S: PairShape> CutPotential<S> {
         self.evaluate(squared_distance).slope
     }
 
+    /// phi'/r of several pairs at once, each as [`Self::slope`] has it; `SIDE` by side without branches where no pair is
+    /// in the range of the switch.
+    #[inline(always)]
+    pub fn slopes<const SIDE: usize>(&self, squared_distances: [f64; SIDE]) -> [f64; SIDE] {
+        let switched = squared_distances
+            .iter()
+            .fold(false, |any, &squared| any | (squared > self.squared_switch));
+        if switched {
+            return squared_distances.map(|squared| self.slope(squared));
+        }
+        squared_distances.map(|squared| {
+            let (_, slope) = self.shape.energy_and_slope(squared);
+            if squared >= self.squared_cutoff { 0.0 } else { slope }
+        })
+    }
+
     #[cold]
     fn switched(&self, squared_distance: f64, energy: f64, slope: f64) -> PairValue {
         let distance = squared_distance.sqrt();
