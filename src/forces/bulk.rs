@@ -35,13 +35,14 @@ pub fn force<S: PairShape, const W: usize>(
     for bond in bonds {
         let [x, y] = map.vector(bond.local);
         let pull = Lanes(law.slopes(x.mul_add(x, y * y).0)) * -bond.count;
-        let [p, q] = bond.local.map(|step| pull * f64::from(step));
+        let [p, q] = [pull * f64::from(bond.local[0]), pull * f64::from(bond.local[1])];
         first = [p.mul_add(x, first[0]), p.mul_add(y, first[1])];
         second = [q.mul_add(x, second[0]), q.mul_add(y, second[1])];
     }
     let edge = 1.0 / f64::from(size - 1);
-    let [first, second] = [first, second].map(|sum| [sum[0] * edge, sum[1] * edge]);
-    let origin = [0, 1].map(|axis| (first[axis] + second[axis]) * -1.0);
+    let first = [first[0] * edge, first[1] * edge];
+    let second = [second[0] * edge, second[1] * edge];
+    let origin = [(first[0] + second[0]) * -1.0, (first[1] + second[1]) * -1.0];
     [origin[0], origin[1], first[0], first[1], second[0], second[1]]
 }
 
@@ -99,11 +100,14 @@ impl BulkBonds {
     #[inline(always)]
     pub fn within_all<const W: usize>(&self, size: i32, map: &MapLanes<W>, reach: &Reach) -> Option<&[BulkBond]> {
         let (_, listed, bonds) = self.table(size);
-        let enough = bonds.get(*listed).is_none_or(|next| {
-            // A little more than is needed, so that rounding does not matter.
-            let stretch = 1.0001 * reach.cutoff / (next.length * reach.spacing);
-            stretch_at_least(map.deformation_gradient(1, reach.spacing), stretch)
-        });
-        enough.then(|| &bonds[..*listed])
+        let enough = match bonds.get(*listed) {
+            None => true,
+            Some(next) => {
+                // A little more than is needed, so that rounding does not matter.
+                let stretch = 1.0001 * reach.cutoff / (next.length * reach.spacing);
+                stretch_at_least(map.deformation_gradient(1, reach.spacing), stretch)
+            }
+        };
+        if enough { Some(&bonds[..*listed]) } else { None }
     }
 }

@@ -154,12 +154,17 @@ fn sum_lanes<S: PairShape, const W: usize>(
     let second: MapLanes<W> = field.maps.lanes((run.second + from) as usize);
     let kind = &field.interfaces.kinds[run.kind as usize];
     let squared_gap = interface::squared_gap(kind, &first, &second);
-    let is_tight = field.limit.quick.is_some_and(|quick| {
-        let spacing = field.limit.spacing;
-        let gradients = [(&first, &kind.elements[0]), (&second, &kind.elements[1])]
-            .map(|(map, element)| map.deformation_gradient(element.sign, spacing));
-        quick.holds(gradients, squared_gap)
-    });
+    let is_tight = match &field.limit.quick {
+        None => false,
+        Some(quick) => {
+            let spacing = field.limit.spacing;
+            let gradients = [
+                first.deformation_gradient(kind.elements[0].sign, spacing),
+                second.deformation_gradient(kind.elements[1].sign, spacing),
+            ];
+            quick.holds(gradients, squared_gap)
+        }
+    };
     let mut open = [false; W];
     for (lane, open) in open.iter_mut().enumerate() {
         let before = field.states[number + lane];
@@ -189,13 +194,13 @@ fn sum_lanes<S: PairShape, const W: usize>(
     } else {
         for lane in 0..W {
             let strings = field.strings.of(run.kind, squared_gap[lane] <= limit);
-            let [one, other] = [&first, &second].map(|map| map.lane(lane));
+            let [one, other] = [first.lane(lane), second.lane(lane)];
             let alone = interface::string_forces::<S, 1>(field.law, kind, &one, &other, strings);
             forces.set_lane(lane, &alone);
         }
     }
     for (plane, values) in forces.0.iter().enumerate() {
-        let free = Lanes::<W>(std::array::from_fn(|lane| if open[lane] { 0.0 } else { values[lane] }));
+        let free = Lanes::<W>::each(|lane| if open[lane] { 0.0 } else { values[lane] });
         free.store(planes, plane * BLOCK + place);
     }
 }

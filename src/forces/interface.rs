@@ -198,16 +198,25 @@ impl<const W: usize> StringForces<W> {
 /// end of where they face each other, nm^2.
 #[inline(always)]
 pub fn squared_gap<const W: usize>(kind: &InterfaceKind, first: &MapLanes<W>, second: &MapLanes<W>) -> Lanes<W> {
-    let [a, b] = kind.anchors.map(|anchor| {
-        let [one, other] = kind.elements;
-        let site = [one.column + anchor[0], one.row + anchor[1]];
-        let [a, b] = [first.at(one.local(site)), second.at(other.local(site))];
-        let [x, y] = [b[0] - a[0], b[1] - a[1]];
-        x.mul_add(x, y * y)
-    });
-    Lanes(std::array::from_fn(
-        |lane| if a[lane] > b[lane] { a[lane] } else { b[lane] },
-    ))
+    let [a, b] = [
+        squared_gap_at(kind, kind.anchors[0], first, second),
+        squared_gap_at(kind, kind.anchors[1], first, second),
+    ];
+    Lanes::each(|lane| if a[lane] > b[lane] { a[lane] } else { b[lane] })
+}
+
+#[inline(always)]
+fn squared_gap_at<const W: usize>(
+    kind: &InterfaceKind,
+    anchor: [i32; 2],
+    first: &MapLanes<W>,
+    second: &MapLanes<W>,
+) -> Lanes<W> {
+    let [one, other] = kind.elements;
+    let site = [one.column + anchor[0], one.row + anchor[1]];
+    let [a, b] = [first.at(one.local(site)), second.at(other.local(site))];
+    let [x, y] = [b[0] - a[0], b[1] - a[1]];
+    x.mul_add(x, y * y)
 }
 
 /// Forces of all strings on the nodes of both triangles: the weights along a string are linear too, so that the sums of
@@ -232,7 +241,7 @@ pub fn string_forces<S: PairShape, const W: usize>(
         let step = [db[0] - da[0], db[1] - da[1]];
         let [mut sum, mut moment] = [[Lanes::default(); 2]; 2];
         for &Sample { at, weight } in samples {
-            let [x, y] = [0, 1].map(|axis| step[axis].times_add(at, start[axis]));
+            let [x, y] = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
             let pull = Lanes(law.slopes(x.mul_add(x, y * y).0)) * weight;
             let lever = pull * at;
             sum = [pull.mul_add(x, sum[0]), pull.mul_add(y, sum[1])];
@@ -241,8 +250,10 @@ pub fn string_forces<S: PairShape, const W: usize>(
         first.add(string.first, string.first_step, sum, moment, 1.0);
         second.add(string.second, string.second_step, sum, moment, -1.0);
     }
-    let [first, second] =
-        [(first, kind.elements[0]), (second, kind.elements[1])].map(|(sum, element)| sum.on_nodes(element.size));
+    let [first, second] = [
+        first.on_nodes(kind.elements[0].size),
+        second.on_nodes(kind.elements[1].size),
+    ];
     let mut forces = StringForces::default();
     for plane in 0..6 {
         forces.0[plane] = first[plane];
@@ -274,8 +285,9 @@ impl<const W: usize> NodalSum<W> {
     #[inline(always)]
     fn on_nodes(&self, size: i32) -> [Lanes<W>; 6] {
         let edge = 1.0 / f64::from(size - 1);
-        let [p, q] = self.along.map(|sum| [sum[0] * edge, sum[1] * edge]);
-        let origin = [0, 1].map(|axis| self.total[axis] - p[axis] - q[axis]);
-        [origin[0], origin[1], p[0], p[1], q[0], q[1]]
+        let [p, q] = self.along;
+        let [p, q] = [[p[0] * edge, p[1] * edge], [q[0] * edge, q[1] * edge]];
+        let [x, y] = [self.total[0] - p[0] - q[0], self.total[1] - p[1] - q[1]];
+        [x, y, p[0], p[1], q[0], q[1]]
     }
 }

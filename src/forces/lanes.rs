@@ -22,11 +22,21 @@ impl<const W: usize> Lanes<W> {
         Self([value; W])
     }
 
+    /// What a function of the lane's number gives. (A plain loop: compilers take what is more general less well apart.)
+    #[inline(always)]
+    pub fn each(of_lane: impl Fn(usize) -> f64) -> Self {
+        let mut lanes = [0.0; W];
+        for lane in 0..W {
+            lanes[lane] = of_lane(lane);
+        }
+        Self(lanes)
+    }
+
     /// The numbers from a place of a plane on.
     #[inline(always)]
     pub fn load(plane: &[f64], from: usize) -> Self {
         let numbers = &plane[from..from + W];
-        Self(std::array::from_fn(|lane| numbers[lane]))
+        Self::each(|lane| numbers[lane])
     }
 
     #[inline(always)]
@@ -37,9 +47,7 @@ impl<const W: usize> Lanes<W> {
     /// self * factor + term, rounded once.
     #[inline(always)]
     pub fn mul_add(self, factor: Self, term: Self) -> Self {
-        Self(std::array::from_fn(|lane| {
-            self.0[lane].mul_add(factor.0[lane], term.0[lane])
-        }))
+        Self::each(|lane| self.0[lane].mul_add(factor.0[lane], term.0[lane]))
     }
 
     /// self * factor + term for the same factor in all lanes.
@@ -52,7 +60,11 @@ impl<const W: usize> Lanes<W> {
     #[inline(always)]
     pub fn every(self, asked: impl Fn(f64) -> bool) -> bool {
         // Without leaving early, so that all lanes are compared at once.
-        self.0.iter().fold(true, |all, &value| all & asked(value))
+        let mut all = true;
+        for lane in 0..W {
+            all &= asked(self.0[lane]);
+        }
+        all
     }
 }
 
@@ -70,7 +82,7 @@ impl<const W: usize> Add for Lanes<W> {
 
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Self(std::array::from_fn(|lane| self.0[lane] + other.0[lane]))
+        Self::each(|lane| self.0[lane] + other.0[lane])
     }
 }
 
@@ -86,7 +98,7 @@ impl<const W: usize> Sub for Lanes<W> {
 
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Self(std::array::from_fn(|lane| self.0[lane] - other.0[lane]))
+        Self::each(|lane| self.0[lane] - other.0[lane])
     }
 }
 
@@ -95,7 +107,7 @@ impl<const W: usize> Mul for Lanes<W> {
 
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Self(std::array::from_fn(|lane| self.0[lane] * other.0[lane]))
+        Self::each(|lane| self.0[lane] * other.0[lane])
     }
 }
 

@@ -58,10 +58,13 @@ impl Maps {
 
     #[inline(always)]
     pub fn lanes<const W: usize>(&self, from: usize) -> MapLanes<W> {
-        let load = |plane: usize| Lanes::load(&self.planes[plane], from);
+        let [x, y, a, b, c, d] = &self.planes;
         MapLanes {
-            origin: [load(0), load(1)],
-            along: [[load(2), load(3)], [load(4), load(5)]],
+            origin: [Lanes::load(x, from), Lanes::load(y, from)],
+            along: [
+                [Lanes::load(a, from), Lanes::load(b, from)],
+                [Lanes::load(c, from), Lanes::load(d, from)],
+            ],
         }
     }
 }
@@ -80,18 +83,19 @@ impl<const W: usize> MapLanes<W> {
     /// Positions of the sites at these local coordinates.
     #[inline(always)]
     pub fn at(&self, local: [i32; 2]) -> [Lanes<W>; 2] {
-        let [p, q] = local.map(f64::from);
-        [0, 1].map(|axis| {
-            let step = self.along[0][axis].times_add(p, self.origin[axis]);
-            self.along[1][axis].times_add(q, step)
-        })
+        let [p, q] = [f64::from(local[0]), f64::from(local[1])];
+        let [a, b] = self.along;
+        let x = b[0].times_add(q, a[0].times_add(p, self.origin[0]));
+        let y = b[1].times_add(q, a[1].times_add(p, self.origin[1]));
+        [x, y]
     }
 
     /// The vectors that p steps along one edge and q along the other make.
     #[inline(always)]
     pub fn vector(&self, local: [i32; 2]) -> [Lanes<W>; 2] {
-        let [p, q] = local.map(f64::from);
-        [0, 1].map(|axis| self.along[1][axis].times_add(q, self.along[0][axis] * p))
+        let [p, q] = [f64::from(local[0]), f64::from(local[1])];
+        let [a, b] = self.along;
+        [b[0].times_add(q, a[0] * p), b[1].times_add(q, a[1] * p)]
     }
 
     /// Deformation gradients with respect to the perfect lattice of this spacing; `sign` is the triangles' orientation.
@@ -100,8 +104,9 @@ impl<const W: usize> MapLanes<W> {
     pub fn deformation_gradient(&self, sign: i32, spacing: f64) -> [[Lanes<W>; 2]; 2] {
         let scale = f64::from(sign) / spacing;
         let [a, b] = self.along;
-        let across = |axis: usize| (b[axis] * 2.0 - a[axis]) * (scale * INVERSE_ROOT_3);
-        [[a[0] * scale, a[1] * scale], [across(0), across(1)]]
+        let across = scale * INVERSE_ROOT_3;
+        let second = [(b[0] * 2.0 - a[0]) * across, (b[1] * 2.0 - a[1]) * across];
+        [[a[0] * scale, a[1] * scale], second]
     }
 }
 
@@ -109,7 +114,8 @@ impl<const W: usize> MapLanes<W> {
 #[inline(always)]
 pub fn stretch_at_least<const W: usize>([x, y]: [[Lanes<W>; 2]; 2], factor: f64) -> bool {
     let least = Lanes::all(factor * factor);
-    let dot = |a: [Lanes<W>; 2], b: [Lanes<W>; 2]| a[0] * b[0] + a[1] * b[1];
-    let [xx, xy, yy] = [dot(x, x) - least, dot(x, y), dot(y, y) - least];
+    let xx = x[0] * x[0] + x[1] * x[1] - least;
+    let yy = y[0] * y[0] + y[1] * y[1] - least;
+    let xy = x[0] * y[0] + x[1] * y[1];
     xx.every(|value| value > 0.0) && (xx * yy - xy * xy).every(|value| value > 0.0)
 }

@@ -87,16 +87,21 @@ impl<S: PairShape> CutPotential<S> {
     /// in the range of the switch.
     #[inline(always)]
     pub fn slopes<const SIDE: usize>(&self, squared_distances: [f64; SIDE]) -> [f64; SIDE] {
-        let switched = squared_distances
-            .iter()
-            .fold(false, |any, &squared| any | (squared > self.squared_switch));
-        if switched {
-            return squared_distances.map(|squared| self.slope(squared));
+        let mut switched = false;
+        for squared in squared_distances {
+            switched |= squared > self.squared_switch;
         }
-        squared_distances.map(|squared| {
-            let (_, slope) = self.shape.energy_and_slope(squared);
-            if squared >= self.squared_cutoff { 0.0 } else { slope }
-        })
+        let mut slopes = [0.0; SIDE];
+        for (slope, squared) in slopes.iter_mut().zip(squared_distances) {
+            *slope = if switched {
+                self.slope(squared)
+            } else if squared >= self.squared_cutoff {
+                0.0
+            } else {
+                self.shape.energy_and_slope(squared).1
+            };
+        }
+        slopes
     }
 
     #[cold]
