@@ -161,11 +161,13 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
             fs::remove_file(&path).map_err(|source| failed(&path, source))?;
         }
     }
-    let comparison = folder.join("tables/comparison.csv");
-    match fs::remove_file(&comparison) {
-        Err(source) if source.kind() != ErrorKind::NotFound => Err(failed(&comparison, source)),
-        _ => Ok(()),
+    for comparison in ["csv", "parquet"].map(|ending| folder.join("tables/comparison").with_extension(ending)) {
+        match fs::remove_file(&comparison) {
+            Err(source) if source.kind() != ErrorKind::NotFound => return Err(failed(&comparison, source)),
+            _ => (),
+        }
     }
+    Ok(())
 }
 
 fn save(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {

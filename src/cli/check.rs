@@ -61,9 +61,7 @@ fn row(name: &str, estimate: &Estimate) -> Vec<String> {
         estimate.nodes.to_string(),
         estimate.elements.to_string(),
         estimate.represented_atoms.to_string(),
-        estimate
-            .leftover_share
-            .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
+        estimate.leftover_share.map_or_else(|| "-".to_owned(), format::share),
         estimate.steps.to_string(),
         format!(
             "{:.3} / {:.3} fs",

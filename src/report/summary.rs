@@ -10,6 +10,9 @@ const MOST_NAMED: usize = 4;
 /// So that a difference of just one probe counts as one, however it was rounded.
 const ROUNDING: f64 = 1.0 + 1e-6;
 
+/// Factors below this are not worth a number.
+const ALIKE: f64 = 1.05;
+
 /// Rows that belong together; one cell a case.
 pub struct Group {
     pub title: &'static str,
@@ -113,15 +116,16 @@ fn against(case: &Analysed, reference: &Analysed) -> Option<String> {
     let wall = |case: &Analysed| case.result.manifest.wall_seconds.filter(|&wall| wall > 0.0);
     let times = |of: &dyn Fn(&Analysed) -> Option<f64>| Some(of(reference)? / of(case)?);
     if let Some((nodes, time)) = times(&nodes).zip(times(&wall)) {
-        let pace = if time < 1.0 {
-            format!("{} times slower", significant(1.0 / time, 2))
-        } else {
-            format!("{} times faster", significant(time, 2))
+        let nodes = match nodes {
+            ..ALIKE => "as many nodes".to_owned(),
+            fewer => format!("{} times fewer nodes", significant(fewer, 2)),
         };
-        text.push_str(&format!(
-            ", with {} times fewer nodes and {pace}",
-            significant(nodes, 2)
-        ));
+        let pace = match time {
+            ALIKE.. => format!("{} times faster", significant(time, 2)),
+            _ if time * ALIKE <= 1.0 => format!("{} times slower", significant(1.0 / time, 2)),
+            _ => "as fast".to_owned(),
+        };
+        text.push_str(&format!(", with {nodes} and {pace}"));
     }
     Some(text)
 }

@@ -387,3 +387,13 @@ fn figures_of_cases_that_are_gone_go_too() {
     let fresh = written(&study);
     assert!(files(folder.path()) == files(fresh.path()));
 }
+
+#[cfg(feature = "parquet")]
+#[test]
+fn every_table_is_there_as_parquet_too() {
+    let tables = files(&written(&three_meshes()).path().join("tables"));
+    for (table, _) in COLUMNS {
+        let bytes = &tables[&format!("{table}.parquet")];
+        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "{table}");
+    }
+}
