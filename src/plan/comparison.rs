@@ -176,6 +176,7 @@ impl Sheet<'_> {
         };
         let fits = |table: &&Compared| {
             head.iter().all(|column| has(table, column))
+                && head.iter().any(|column| table.values.contains(&column))
                 && table.keys.iter().all(|key| head.iter().any(|column| column == key.0))
         };
         if let Some(table) = COMPARED.iter().find(fits) {
