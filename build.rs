@@ -13,15 +13,25 @@ fn main() {
         .collect();
     features.sort();
     println!("cargo::rustc-env=CGAFT_FEATURES={}", features.join(" "));
-    println!(
-        "cargo::rustc-env=CGAFT_COMMIT={}",
-        git(&["rev-parse", "--short=12", "HEAD"]).unwrap_or_default()
-    );
-    println!("cargo::rerun-if-changed=build.rs");
+    println!("cargo::rustc-env=CGAFT_COMMIT={}", commit().unwrap_or_default());
+    // What the program is made from: a change of it may make a commit dirty, or clean again.
+    SOURCES
+        .iter()
+        .for_each(|source| println!("cargo::rerun-if-changed={source}"));
     // The log of HEAD grows with every commit and checkout. A path that does not exist would rebuild each time.
     if let Some(log) = git(&["rev-parse", "--git-path", "logs/HEAD"]).filter(|log| Path::new(log).exists()) {
         println!("cargo::rerun-if-changed={log}");
     }
+}
+
+const SOURCES: [&str; 5] = ["build.rs", "Cargo.toml", "Cargo.lock", "src", "studies"];
+
+/// The commit, with `-dirty` behind it where the sources are not those of that commit.
+fn commit() -> Option<String> {
+    let commit = git(&["rev-parse", "--short=12", "HEAD"])?;
+    let changes = git(&[&["status", "--porcelain", "--"], SOURCES.as_slice()].concat())?;
+    let mark = if changes.is_empty() { "" } else { "-dirty" };
+    Some(format!("{commit}{mark}"))
 }
 
 fn git(arguments: &[&str]) -> Option<String> {

@@ -60,13 +60,13 @@ enum StudyCommand {
     /// Compute the cases that are missing, then build the report
     Run(run::Arguments),
     /// Validate a study and tell the size and cost of each case; computes nothing
-    Check(check::Arguments),
+    Check(survey::Common),
     /// Tell what would run, why, and the exact command
-    Plan(plan::Arguments),
+    Plan(survey::OfResults),
     /// Tell the state of every case
-    Status(status::Arguments),
+    Status(survey::OfResults),
     /// Build tables, figures and report again from what is there
-    Report(report::Arguments),
+    Report(survey::OfResults),
     /// Remove unpublished and superseded runs
     Clean(clean::Arguments),
 }
@@ -92,7 +92,7 @@ impl Command {
     fn carry_out(self) -> Result<u8, CliError> {
         match self {
             Command::Study(StudyCommand::Run(arguments)) => run::run(&arguments),
-            Command::Study(StudyCommand::Check(arguments)) => check::check(&arguments),
+            Command::Study(StudyCommand::Check(common)) => check::check(&common),
             Command::Study(StudyCommand::Plan(arguments)) => plan::plan(&arguments),
             Command::Study(StudyCommand::Status(arguments)) => status::status(&arguments),
             Command::Study(StudyCommand::Report(arguments)) => report::rebuild_report(&arguments),
@@ -108,11 +108,11 @@ impl Command {
     fn json(&self) -> bool {
         match self {
             Command::Study(StudyCommand::Run(arguments)) => arguments.common.json,
-            Command::Study(StudyCommand::Check(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Check(common)) => common.json,
             Command::Study(StudyCommand::Plan(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Status(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Report(arguments)) => arguments.common.json,
-            Command::Study(StudyCommand::Clean(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Clean(arguments)) => arguments.of.common.json,
             Command::Export(export::Command::Lammps(arguments)) => arguments.common.json,
             _ => false,
         }

@@ -156,6 +156,10 @@ impl Forces {
         self.contacts.forget();
     }
 
+    pub fn interface_count(&self) -> usize {
+        self.states.len()
+    }
+
     /// How often neighbours were searched, and for how many seconds.
     pub fn search_cost(&self) -> (u64, f64) {
         (self.searches, self.search_time.as_secs_f64())

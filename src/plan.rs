@@ -1,5 +1,6 @@
 //! A study becomes a list of cases, each with a name, every choice made, and an identity.
 
+mod comparison;
 mod difference;
 mod expansion;
 mod identity;
@@ -10,13 +11,16 @@ mod starter;
 mod sweep;
 mod write;
 
+pub use comparison::{COMPARED, Compared, Comparison, Expected};
 pub use difference::explain_difference;
 pub use identity::CaseId;
 pub use spelling::spelled;
 pub use starter::starter;
 pub use write::write_case;
 
-use crate::study::{Finding, Findings, Given, Place, Study, StudyError, Table, case::Case, resolve};
+use crate::study::{
+    self, CaseFile, Finding, Findings, Given, Place, Refusal, Study, StudyError, Table, case::Case, resolve,
+};
 use std::collections::HashMap;
 
 /// What is to be computed, in the order of the study file.
@@ -27,12 +31,12 @@ pub struct Plan {
     pub question: Option<String>,
     /// Headline of the report.
     pub title: Option<String>,
-    /// What to compare with: quantity and file, as written in the study.
-    pub compare: Vec<(String, String)>,
-    /// The study file as it was named, and its text.
-    pub file: String,
-    pub source: String,
+    /// What the results are to be compared with.
+    pub comparisons: Vec<Comparison>,
     pub cases: Vec<PlannedCase>,
+    /// The study as read, and its cases as typed: where a refusal points.
+    read: Study,
+    typed: HashMap<String, Given<CaseFile>>,
 }
 
 /// One case, every choice made.
@@ -52,10 +56,12 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let findings = &study.findings.clone();
     let name = study_name(study, findings);
     let mut cases = Vec::new();
+    let mut typed = HashMap::new();
     // Names end up as folders, and not every file system tells B from b.
     let mut places: HashMap<String, Place> = HashMap::new();
     let drafts = expansion::expand(content, findings);
     let number = drafts.len();
+    let comparisons = comparison::read(study, &drafts, findings);
     for draft in drafts {
         if let Some(first) = places.insert(draft.name.to_lowercase(), draft.place) {
             let message = format!("two cases would be called `{}`", draft.name);
@@ -67,6 +73,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         }
         if let Some(resolved) = resolve(&draft.values, &draft.name, findings) {
             let id = CaseId::of(&resolved.case);
+            typed.insert(draft.name.clone(), draft.values);
             cases.push(PlannedCase {
                 name: draft.name,
                 case: resolved.case,
@@ -77,26 +84,57 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     }
     findings.forget_common_cases(number);
     if !findings.is_empty() {
-        return Err(Study {
-            findings: findings.clone(),
-            ..study.clone()
-        }
-        .error());
+        return Err(study.error(findings));
     }
     let text = |given: &Given<String>| given.right().map(|text| text.trim().to_owned());
-    let compare = content.compare.right().map_or([].as_slice(), |compare| &compare.0);
     Ok(Plan {
         study: name,
         question: text(&content.question),
         title: content.report.right().and_then(|report| text(&report.title)),
-        compare: compare
-            .iter()
-            .filter_map(|(name, file)| Some((name.text.clone(), file.right()?.clone())))
-            .collect(),
-        file: study.file.clone(),
-        source: study.text.to_string(),
+        comparisons,
         cases,
+        read: study.clone(),
+        typed,
     })
+}
+
+/// Read a file of one case, such as [`write_case`] makes.
+pub fn read_case(path: &str) -> Result<Plan, StudyError> {
+    let plan = plan(&study::read(path)?)?;
+    if plan.cases.len() == 1 {
+        return Ok(plan);
+    }
+    let message = format!("a run needs a file of one case, and this one has {}", plan.cases.len());
+    Err(plan.error([Finding::whole(message).help("start it with `cgaft study run`")]))
+}
+
+impl Plan {
+    /// The study file as it was named.
+    pub fn file(&self) -> &str {
+        &self.read.file
+    }
+
+    /// Its text.
+    pub fn source(&self) -> &str {
+        &self.read.text
+    }
+
+    /// Refusals of cases, each with the name of its case, told at their places in the study file.
+    pub fn refuse<'a>(&self, refusals: impl IntoIterator<Item = (&'a str, Refusal)>) -> StudyError {
+        let typed = |case: &str| self.typed.get(case).cloned().unwrap_or_default();
+        self.error(
+            refusals
+                .into_iter()
+                .map(|(case, refusal)| refusal.finding(&typed(case)).case(case)),
+        )
+    }
+
+    fn error(&self, found: impl IntoIterator<Item = Finding>) -> StudyError {
+        let findings = Findings::default();
+        found.into_iter().for_each(|finding| findings.add(finding));
+        findings.forget_common_cases(self.cases.len());
+        self.read.error(&findings)
+    }
 }
 
 fn study_name(study: &Study, findings: &Findings) -> String {

@@ -19,6 +19,7 @@ mod file;
 pub mod frames;
 mod mesh;
 mod pieces;
+mod provenance;
 mod publish;
 mod read_fields;
 mod sealed;

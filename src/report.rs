@@ -1,6 +1,7 @@
 //! A study's results as tables, figures and one page that says what came out and what it cost.
 
 mod chart;
+mod expected;
 mod figures;
 mod method;
 mod numbers;
@@ -16,6 +17,7 @@ mod units;
 pub use study::{CaseResult, Failure, Manifest, Phase, Study};
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use crate::analysis::comparison::{self, Candidate, Difference};
@@ -71,7 +73,8 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         let path = folder.join(part);
         fs::create_dir_all(&path).map_err(|source| ReportError::Write { path, source })?;
     }
-    let mut tables = tables::all(&cases)?;
+    remove_old(folder)?;
+    let mut tables = tables::all(&cases, &study.comparisons)?;
     for table in &mut tables {
         table.write(&folder.join("tables"))?;
     }
@@ -142,6 +145,29 @@ fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings) -> Option<Candida
         setting,
         findings,
     })
+}
+
+/// Removes what an earlier report of more cases may have left and this one does not write again.
+fn remove_old(folder: &Path) -> Result<(), ReportError> {
+    let failed = |path: &Path, source| ReportError::Write {
+        path: path.to_owned(),
+        source,
+    };
+    let figures = folder.join("figures");
+    for entry in fs::read_dir(&figures).map_err(|source| failed(&figures, source))? {
+        let path = entry.map_err(|source| failed(&figures, source))?.path();
+        let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
+        if figures::is_of_a_report(name) || picture::is_of_a_report(name) {
+            fs::remove_file(&path).map_err(|source| failed(&path, source))?;
+        }
+    }
+    for comparison in ["csv", "parquet"].map(|ending| folder.join("tables/comparison").with_extension(ending)) {
+        match fs::remove_file(&comparison) {
+            Err(source) if source.kind() != ErrorKind::NotFound => return Err(failed(&comparison, source)),
+            _ => (),
+        }
+    }
+    Ok(())
 }
 
 fn save(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {

@@ -1,10 +1,12 @@
 //! A resolved case becomes a ready solver, and a run its folder.
 
 mod census;
+mod error;
 mod estimate;
 mod recorder;
 mod run;
 
+pub use error::SetupError;
 pub use estimate::{Estimate, estimate};
 pub use run::{Finished, RunCaseError, run_case};
 
@@ -18,57 +20,16 @@ use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
 use crate::potential::{AtCutoff, CutPotential, HarmonicBond, Interaction, LennardJones, Morse};
-use crate::solver::{self, Solver, SolverError, TimeStep};
+use crate::solver::{self, Solver, TimeStep};
 use crate::study::case::{self, Case};
 use crate::units::U_IN_EV_PS2_PER_NM2;
 
-/// Why a case makes no specimen: sound as a text, but not as physics.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SetupError {
-    #[error(
-        "this potential has no zero-pressure lattice within its cutoff of {cutoff} nm; \
-         its energy is lowest at {minimum:.4} nm, so the cutoff must reach well beyond"
-    )]
-    NoLattice { cutoff: f64, minimum: f64 },
-    #[error(
-        "a cutoff of {cutoff} nm is more than {most} times the distance of lowest energy, {minimum:.4} nm: \
-         every site would have hundreds of partners; write a shorter one"
-    )]
-    CutoffTooLong { cutoff: f64, minimum: f64, most: f64 },
-    #[error("the run would take {steps} steps of {time_step:e} ps; look at the strain rate, the mass and `until`")]
-    Endless { steps: u64, time_step: f64 },
-    #[error(
-        "the grips would part at {speed:.3} nm/ps each, faster than sound ({sound:.3} nm/ps); lower the strain rate"
-    )]
-    FasterThanSound { speed: f64, sound: f64 },
-    #[error(
-        "a specimen of {length} x {width} nm has room for {rows} rows of {triangles} triangles of {block} atoms an edge \
-         ({spacing:.4} nm apart); it needs 4 rows (two are grips) of at least 3: make it larger, or `block` smaller"
-    )]
-    TooSmall {
-        length: f64,
-        width: f64,
-        rows: i32,
-        triangles: i32,
-        block: u32,
-        spacing: f64,
-    },
-    #[error(
-        "elements of {element} atoms an edge do not fit: either side of the crack plane has {rows} rows of atoms \
-         up to the grip; use {rows} or less"
-    )]
-    ElementTooLarge { element: u32, rows: i32 },
-    #[error(
-        "a mesh of {sites} sites needs about {needed:.1} GiB and this machine has {present:.1} GiB free; \
-         make the specimen smaller, or use larger elements"
-    )]
-    TooLarge { sites: u64, needed: f64, present: f64 },
-    #[error(transparent)]
-    Solver(#[from] SolverError),
-}
-
 /// Longest cutoff in units of the distance of lowest energy.
 const MOST_MINIMA: f64 = 10.0;
+
+/// Atoms along a side. Columns are counted from the lowest row, so that they reach as far to the left as there are
+/// rows; this leaves 32-bit numbers room for both.
+const MOST_ATOMS_ALONG: f64 = 5e8;
 
 /// The crystal of a case.
 pub fn material(case: &Case) -> Result<Material, SetupError> {
@@ -112,6 +73,15 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
     let case::Lattice::Triangular = case.specimen.lattice;
     let spacing = material.spacing;
     let specimen = &case.specimen;
+    let atoms = specimen.length.max(specimen.width) / spacing;
+    if atoms > MOST_ATOMS_ALONG {
+        return Err(SetupError::TooLong {
+            side: specimen.length.max(specimen.width),
+            is_width: specimen.width > specimen.length,
+            atoms,
+            most: MOST_ATOMS_ALONG,
+        });
+    }
     let layout = Layout::nearest(
         specimen.length / spacing,
         specimen.width / spacing,

@@ -75,7 +75,8 @@ pub trait Observer {
     fn probe(&mut self, probe: &Probe, profile: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), Self::Error>;
     fn snapshot(&mut self, moment: &Moment) -> Result<(), Self::Error>;
     /// All probes and snapshots up to here must be safe before the checkpoint is.
-    fn checkpoint(&mut self, checkpoint: &Checkpoint) -> Result<(), Self::Error>;
+    /// `cost` is that of this part of the run.
+    fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), Self::Error>;
     /// Called at every probe.
     fn progress(&mut self, progress: &Progress);
 }
@@ -129,10 +130,24 @@ pub enum SolverError {
         /// Where the fastest node was before the loading: nm from the left edge, and from the crack plane.
         fastest: [f64; 2],
     },
+    #[error(
+        "step {step}, {time:.3} ps, strain {strain:.5}: the given time step of {given:.5} ps is no longer stable: the \
+         specimen has stiffened and its limit is {limit:.5} ps now; choose a smaller one, or `time-step: auto`, which \
+         follows the limit"
+    )]
+    StepUnstable {
+        step: u64,
+        time: f64,
+        strain: f64,
+        given: f64,
+        limit: f64,
+    },
     #[error("the run cannot start: {0}")]
     NoStart(ForceError),
     #[error("`relax` before the run: {0}")]
     NoRest(RelaxationError),
+    #[error("this is no checkpoint of this specimen: {0}")]
+    OtherSpecimen(&'static str),
 }
 
 /// How a run ended, or why not; observers' errors pass through.
@@ -320,7 +335,9 @@ impl Solver {
 
     fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         let mut clock = Instant::now();
-        observer.checkpoint(&self.checkpoint()).map_err(RunError::Output)?;
+        observer
+            .checkpoint(&self.checkpoint(), &self.cost())
+            .map_err(RunError::Output)?;
         self.cost.book(Phase::Output, &mut clock);
         Ok(())
     }
@@ -346,7 +363,8 @@ impl Solver {
         if self.step.is_multiple_of(time_step::CHECK_EVERY) {
             self.stability_limit =
                 time_step::limit(&mut self.forces, &self.state).map_err(|source| self.blow_up(source))?;
-            self.time_step = self.settings.time_step.adapt(self.time_step, self.stability_limit);
+            let adapted = self.settings.time_step.adapt(self.time_step, self.stability_limit);
+            self.time_step = adapted.ok_or_else(|| self.step_unstable())?;
             self.cost.book(Phase::Stability, &mut clock);
         }
         Ok(())
@@ -363,6 +381,16 @@ impl Solver {
 
     fn strain(&self) -> f64 {
         self.loading.strain(self.time)
+    }
+
+    fn step_unstable(&self) -> SolverError {
+        SolverError::StepUnstable {
+            step: self.step,
+            time: self.time,
+            strain: self.strain(),
+            given: self.time_step,
+            limit: self.stability_limit,
+        }
     }
 
     fn blow_up(&self, source: ForceError) -> SolverError {

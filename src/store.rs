@@ -12,6 +12,7 @@
 
 mod claim;
 mod clean;
+mod cost;
 mod error;
 mod files;
 mod links;
@@ -19,13 +20,15 @@ mod manifest;
 mod state;
 
 pub use claim::{Claim, FolderLock};
-pub use clean::Removed;
+pub use clean::Leftover;
+pub use cost::Account;
 pub use error::StoreError;
 pub use files::write;
 pub use manifest::{Attempt, ExitState, Failure, Manifest, Outcome, Phase, Program, Reached, host};
 pub use state::State;
 
 use std::fs::{self, File};
+use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
@@ -56,7 +59,8 @@ impl Store {
         let mark = store.mark();
         let text = match fs::read_to_string(&mark) {
             Ok(text) => text,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(store),
+            // A file in the place of the folder is told by who wants to write there.
+            Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(store),
             Err(error) => return Err(StoreError::read(&mark)(error)),
         };
         match serde_json::from_str::<Format>(&text) {

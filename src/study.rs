@@ -14,6 +14,7 @@ mod named;
 mod overlay;
 mod quantity;
 mod reader;
+mod refusal;
 mod resolve;
 mod schema;
 mod source;
@@ -21,17 +22,17 @@ mod tree;
 
 pub use error::{Mistake, StudyError};
 pub(crate) use file::{CaseFile, StudyFile};
-pub(crate) use finding::{Finding, Findings, Place};
+pub(crate) use finding::{Finding, Findings, Place, alternatives, suggestion};
 pub(crate) use named::{Name, Sweep};
 pub(crate) use overlay::Overlay;
 pub(crate) use reader::{Given, read as read_tree};
+pub use refusal::{Refusal, Subject};
 pub use resolve::Table;
 pub(crate) use resolve::resolve;
 pub use schema::schema;
-pub use source::SHIPPED;
+pub use source::{SHIPPED, Shipped};
 pub(crate) use tree::{Node, Value};
 
-use case::Case;
 use std::sync::Arc;
 
 /// Version of the study file that this program reads.
@@ -46,12 +47,15 @@ pub struct Study {
     pub(crate) start: Place,
     pub(crate) content: StudyFile,
     pub(crate) findings: Findings,
+    /// Where it came with the program.
+    shipped: Option<&'static Shipped>,
 }
 
 /// Read a study file, or the shipped study of that name where there is no such file.
 pub fn read(path: &str) -> Result<Study, StudyError> {
-    let text = source::text(path).map_err(|finding| StudyError::new(path, "".into(), vec![finding]))?;
-    read_text(path, &text)
+    let (text, shipped) = source::text(path).map_err(|finding| StudyError::new(path, "".into(), vec![finding]))?;
+    let study = read_text(path, &text)?;
+    Ok(Study { shipped, ..study })
 }
 
 /// Read the text of a study; `file` is what messages call it.
@@ -74,34 +78,19 @@ pub fn read_text(file: &str, text: &str) -> Result<Study, StudyError> {
         start: root.place,
         content,
         findings,
+        shipped: None,
     })
 }
 
-/// Read a case as `plan::write_case` writes it, which is a study of one case: its name and the case.
-pub fn read_case(path: &str) -> Result<(String, Case), StudyError> {
-    let study = read(path)?;
-    let cases = study.content.cases.right().map_or([].as_slice(), |cases| &cases.0);
-    let mut resolved = None;
-    if let [(name, change)] = cases {
-        let mut values = study.content.base.clone();
-        values.overlay(change);
-        resolved = resolve(&values, &name.text, &study.findings).map(|resolved| (name.text.clone(), resolved.case));
-    } else {
-        let message = format!("a run needs a file of one case, and this one has {}", cases.len());
-        study
-            .findings
-            .add(Finding::whole(message).help("start it with `cgaft study run`"));
-    }
-    study.findings.forget_common_cases(1);
-    resolved
-        .filter(|_| study.findings.is_empty())
-        .ok_or_else(|| study.error())
-}
-
 impl Study {
-    /// All that was found, as an error.
-    pub(crate) fn error(&self) -> StudyError {
-        StudyError::new(&self.file, Arc::clone(&self.text), self.findings.sorted())
+    /// The text of a file that the study names, in its own folder; the error tells what is wrong with it.
+    pub(crate) fn beside(&self, name: &str) -> Result<String, String> {
+        source::beside(&self.file, self.shipped, name)
+    }
+
+    /// What was found in it, as an error.
+    pub(crate) fn error(&self, findings: &Findings) -> StudyError {
+        StudyError::new(&self.file, Arc::clone(&self.text), findings.sorted())
     }
 }
 

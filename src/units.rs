@@ -54,6 +54,26 @@ pub enum Dimension {
 
 use Dimension::*;
 
+/// What is to be known of a dimension.
+struct Description {
+    /// "a length", as a sentence needs it.
+    noun: &'static str,
+    example: &'static str,
+    /// The unit in which quantities are written out; a power of ten away from the internal one, so nothing is rounded.
+    written: &'static str,
+    /// Powers of length, time, energy, mass and temperature.
+    powers: [i8; 5],
+}
+
+const fn description(noun: &'static str, example: &'static str, written: &'static str, powers: [i8; 5]) -> Description {
+    Description {
+        noun,
+        example,
+        written,
+        powers,
+    }
+}
+
 impl Dimension {
     pub const ALL: [Dimension; 12] = [
         Length,
@@ -70,74 +90,38 @@ impl Dimension {
         Fraction,
     ];
 
+    fn description(self) -> Description {
+        match self {
+            Length => description("a length", "354 nm", "nm", [1, 0, 0, 0, 0]),
+            Time => description("a time", "10 ps", "ps", [0, 1, 0, 0, 0]),
+            Duration => description("a duration", "60 s", "s", [0, 1, 0, 0, 0]),
+            Energy => description("an energy", "0.415 eV", "eV", [0, 0, 1, 0, 0]),
+            Mass => description("a mass", "802 u", "u", [0, 0, 0, 1, 0]),
+            Temperature => description("a temperature", "300 K", "K", [0, 0, 0, 0, 1]),
+            Rate => description("a rate", "4.6e6 /s", "/s", [0, -1, 0, 0, 0]),
+            Velocity => description("a velocity", "20 m/s", "m/s", [1, -1, 0, 0, 0]),
+            Stress => description("a stress", "1.6 GPa", "eV/nm^3", [-3, 0, 1, 0, 0]),
+            Stiffness => description("a stiffness", "320 eV/nm^2", "eV/nm^2", [-2, 0, 1, 0, 0]),
+            InverseLength => description("an inverse length", "13.6 /nm", "/nm", [-1, 0, 0, 0, 0]),
+            Fraction => description("a ratio", "1.2 %", "%", [0; 5]),
+        }
+    }
+
     /// "a length", as a sentence needs it.
     pub fn noun(self) -> &'static str {
-        match self {
-            Length => "a length",
-            Time => "a time",
-            Duration => "a duration",
-            Energy => "an energy",
-            Mass => "a mass",
-            Temperature => "a temperature",
-            Rate => "a rate",
-            Velocity => "a velocity",
-            Stress => "a stress",
-            Stiffness => "a stiffness",
-            InverseLength => "an inverse length",
-            Fraction => "a ratio",
-        }
+        self.description().noun
     }
 
     pub fn example(self) -> &'static str {
-        match self {
-            Length => "354 nm",
-            Time => "10 ps",
-            Duration => "60 s",
-            Energy => "0.415 eV",
-            Mass => "802 u",
-            Temperature => "300 K",
-            Rate => "4.6e6 /s",
-            Velocity => "20 m/s",
-            Stress => "1.6 GPa",
-            Stiffness => "320 eV/nm^2",
-            InverseLength => "13.6 /nm",
-            Fraction => "1.2 %",
-        }
+        self.description().example
     }
 
-    /// The unit in which quantities are written out; a power of ten away from the internal one, so nothing is rounded.
     fn written(self) -> &'static str {
-        match self {
-            Length => "nm",
-            Time => "ps",
-            Duration => "s",
-            Energy => "eV",
-            Mass => "u",
-            Temperature => "K",
-            Rate => "/s",
-            Velocity => "m/s",
-            Stress => "eV/nm^3",
-            Stiffness => "eV/nm^2",
-            InverseLength => "/nm",
-            Fraction => "%",
-        }
+        self.description().written
     }
 
-    /// Powers of length, time, energy, mass and temperature.
     fn powers(self) -> [i8; 5] {
-        match self {
-            Length => [1, 0, 0, 0, 0],
-            Time | Duration => [0, 1, 0, 0, 0],
-            Energy => [0, 0, 1, 0, 0],
-            Mass => [0, 0, 0, 1, 0],
-            Temperature => [0, 0, 0, 0, 1],
-            Rate => [0, -1, 0, 0, 0],
-            Velocity => [1, -1, 0, 0, 0],
-            Stress => [-3, 0, 1, 0, 0],
-            Stiffness => [-2, 0, 1, 0, 0],
-            InverseLength => [-1, 0, 0, 0, 0],
-            Fraction => [0; 5],
-        }
+        self.description().powers
     }
 
     /// Power of ten from nm, ps, eV, u, K to the internal unit of this dimension.

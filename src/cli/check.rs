@@ -1,22 +1,15 @@
-use clap::Args;
 use serde_json::json;
 
 use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
-use super::{CliError, format, run};
+use super::{CliError, format};
 use crate::setup::Estimate;
 
-#[derive(Args, Debug)]
-pub struct Arguments {
-    #[command(flatten)]
-    pub common: Common,
-}
-
 /// `cgaft study check FILE`
-pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
-    let plan = survey::read(&arguments.common.study)?;
-    let estimates = estimates(plan.cases.iter())?;
+pub fn check(common: &Common) -> Result<u8, CliError> {
+    let plan = survey::read(&common.study)?;
+    let estimates = estimates(&plan, &plan.cases)?;
     let sized: Vec<_> = plan
         .cases
         .iter()
@@ -27,15 +20,14 @@ pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
     let json = json!({ "study": plan.study, "cases": cases });
     let terminal = Terminal {
         quiet: false,
-        json: arguments.common.json,
+        json: common.json,
     };
-    run::tell_what_is_not_read(&plan, terminal);
     terminal.result(&json, || {
         let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
         rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));
         let total: f64 = estimates.iter().map(|estimate| estimate.seconds).sum();
         format!(
-            "{}\n{}: no mistakes; {}, about {} on one core\n",
+            "{}\n{NOTES}\n{}: no mistakes; {}, about {} on one core\n",
             format::table(&rows),
             plan.study,
             format::count(plan.cases.len(), "case"),
@@ -45,7 +37,12 @@ pub fn check(arguments: &Arguments) -> Result<u8, CliError> {
     Ok(0)
 }
 
-const HEAD: [&str; 9] = [
+/// What the heads of the columns have no room for.
+const NOTES: &str = "left over: share of the atoms in smaller elements than asked for, because no larger one fits there
+disk: pictures and checkpoint, at most; about: wall time on one core
+";
+
+const HEAD: [&str; 10] = [
     "case",
     "nodes",
     "elements",
@@ -54,6 +51,7 @@ const HEAD: [&str; 9] = [
     "steps",
     "time step / limit",
     "memory",
+    "disk",
     "about",
 ];
 
@@ -63,9 +61,7 @@ fn row(name: &str, estimate: &Estimate) -> Vec<String> {
         estimate.nodes.to_string(),
         estimate.elements.to_string(),
         estimate.represented_atoms.to_string(),
-        estimate
-            .leftover_share
-            .map_or_else(|| "-".to_owned(), |share| format!("{:.1} %", 100.0 * share)),
+        estimate.leftover_share.map_or_else(|| "-".to_owned(), format::share),
         estimate.steps.to_string(),
         format!(
             "{:.3} / {:.3} fs",
@@ -73,6 +69,7 @@ fn row(name: &str, estimate: &Estimate) -> Vec<String> {
             1e3 * estimate.stability_limit
         ),
         format::bytes(estimate.memory_bytes),
+        format::bytes(estimate.disk_bytes),
         format::duration(estimate.seconds),
     ]
 }
@@ -88,6 +85,7 @@ fn to_json(name: &str, estimate: &Estimate) -> serde_json::Value {
         "time_step_ps": estimate.time_step,
         "stability_limit_ps": estimate.stability_limit,
         "memory_bytes": estimate.memory_bytes,
+        "disk_bytes": estimate.disk_bytes,
         "estimated_s": estimate.seconds,
     })
 }

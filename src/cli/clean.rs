@@ -1,52 +1,69 @@
 use clap::Args;
 use serde_json::json;
 
-use super::survey::{self, Common, Place};
+use super::survey::{self, OfResults};
 use super::terminal::Terminal;
 use super::{CliError, format};
-use crate::store::{Removed, Store};
+use crate::store::{Leftover, Store};
 
 #[derive(Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
-    pub common: Common,
-    #[command(flatten)]
-    pub place: Place,
+    pub of: OfResults,
+    /// Tell what would be removed, and change nothing
+    #[arg(long)]
+    pub dry_run: bool,
 }
 
 /// `cgaft study clean FILE`
 pub fn clean(arguments: &Arguments) -> Result<u8, CliError> {
-    let plan = survey::read(&arguments.common.study)?;
-    let store = Store::open(&arguments.place.results, &plan.study)?;
+    let OfResults { common, place } = &arguments.of;
+    let plan = survey::read(&common.study)?;
+    let store = Store::open(&place.results, &plan.study)?;
     let current = plan.cases.iter().map(|case| case.id.to_string()).collect();
     let names = plan.cases.iter().map(|case| case.name.clone()).collect();
-    let removed = store.clean(&current, &names)?;
-    let entries: Vec<_> = removed
-        .iter()
-        .map(|entry| json!({ "path": entry.path, "what": entry.what, "bytes": entry.bytes, "removed": entry.removed }))
-        .collect();
+    let leftovers = if arguments.dry_run {
+        store.leftovers(&current)?
+    } else {
+        store.clean(&current, &names)?
+    };
+    let removed = |leftover: &Leftover| !leftover.in_use && !arguments.dry_run;
+    let entry = |leftover: &Leftover| {
+        json!({
+            "path": leftover.path, "what": leftover.what, "bytes": leftover.bytes, "in_use": leftover.in_use,
+            "removed": removed(leftover),
+        })
+    };
+    let entries: Vec<_> = leftovers.iter().map(entry).collect();
     let json = json!({ "study": plan.study, "runs": entries });
     Terminal {
         quiet: false,
-        json: arguments.common.json,
+        json: common.json,
     }
-    .result(&json, || words(&removed))?;
+    .result(&json, || words(&leftovers, arguments.dry_run))?;
     Ok(0)
 }
 
-fn words(removed: &[Removed]) -> String {
+fn words(leftovers: &[Leftover], dry_run: bool) -> String {
+    let verb = if dry_run { "would remove" } else { "removed" };
     let mut words = String::new();
-    for entry in removed {
-        let doing = if entry.removed { "removed" } else { "left, in use:" };
+    for leftover in leftovers {
+        let doing = if leftover.in_use { "left, in use:" } else { verb };
         words.push_str(&format!(
             "{doing} {} {} ({})\n",
-            entry.what,
-            entry.path.display(),
-            format::bytes(entry.bytes)
+            leftover.what,
+            leftover.path.display(),
+            format::bytes(leftover.bytes)
         ));
     }
-    if removed.is_empty() {
-        words.push_str("nothing to remove\n");
+    let free: Vec<&Leftover> = leftovers.iter().filter(|leftover| !leftover.in_use).collect();
+    match free.as_slice() {
+        [] => words.push_str("nothing to remove\n"),
+        [_] => (),
+        several => {
+            let bytes = several.iter().map(|leftover| leftover.bytes).sum();
+            words.push_str(&format!("{verb} {} in all\n", format::bytes(bytes)));
+        }
     }
     words
 }

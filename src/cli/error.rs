@@ -30,6 +30,9 @@ impl CliError {
             CliError::Study(_) | CliError::Input(_) => exit::BAD_INPUT,
             CliError::Environment(_) => exit::MISSING_ENVIRONMENT,
             CliError::Executor(ExecutorError::NoSolver | ExecutorError::Start { .. }) => exit::MISSING_ENVIRONMENT,
+            CliError::Store(store) | CliError::Executor(ExecutorError::Store(store)) if store.is_of_the_input() => {
+                exit::BAD_INPUT
+            }
             CliError::Executor(ExecutorError::Log { .. } | ExecutorError::Store(_)) => exit::OUTPUT_FAILED,
             CliError::Store(_) | CliError::Output { .. } | CliError::Report(_) => exit::OUTPUT_FAILED,
         }

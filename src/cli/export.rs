@@ -11,7 +11,7 @@ use super::terminal::Terminal;
 use crate::export::lammps::{Model, Motion};
 use crate::loading::Grip;
 use crate::plan::{Plan, PlannedCase};
-use crate::setup;
+use crate::setup::{self, SetupError};
 use crate::solver::{Solver, Until};
 use crate::study::case;
 
@@ -37,11 +37,12 @@ pub struct Arguments {
 pub fn lammps(arguments: &Arguments) -> Result<u8, CliError> {
     let plan = survey::read(&arguments.common.study)?;
     let planned = survey::named(&plan, &arguments.case)?;
-    let refused = |why: String| CliError::Input(format!("case `{}`: {why}", planned.name));
+    let refused = |why: SetupError| plan.refuse([(planned.name.as_str(), why.refusal())]);
     let case = &planned.case;
-    let material = setup::material(case).map_err(|error| refused(error.to_string()))?;
-    let solver = setup::solver(case).map_err(|error| refused(error.to_string()))?;
-    let model = Model::new(case, &material, solver.mesh()).map_err(|error| refused(error.to_string()))?;
+    let material = setup::material(case).map_err(refused)?;
+    let solver = setup::solver(case).map_err(refused)?;
+    let model = Model::new(case, &material, solver.mesh())
+        .map_err(|error| CliError::Input(format!("case `{}`: {error}", planned.name)))?;
 
     let [script_file, data_file] = ["in", "data"].map(|kind| format!("{kind}.{}", planned.name));
     let [script_path, data_path] = [&script_file, &data_file].map(|file| arguments.into.join(file));
@@ -109,7 +110,7 @@ fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
             env!("CARGO_PKG_VERSION")
         ),
         String::new(),
-        format!("study   {} ({})", plan.study, plan.file),
+        format!("study   {} ({})", plan.study, plan.file()),
         format!("case    {} ({})", planned.name, planned.id),
         format!("run     lmp -in {script_file}"),
     ];

@@ -1,13 +1,23 @@
 //! Numbers and tables as people read them.
 
-/// `0.4 s`, `42 s`, `3 min 20 s`, `2 h 5 min`.
+/// `< 0.1 s`, `0.4 s`, `42 s`, `3 min 20 s`, `2 h 5 min`.
 pub fn duration(seconds: f64) -> String {
     let whole = seconds.round() as u64;
     match whole {
+        _ if seconds < 0.05 => "< 0.1 s".to_owned(),
         _ if seconds < 9.95 => format!("{seconds:.1} s"),
         0..=59 => format!("{whole} s"),
         60..=3599 => format!("{} min {} s", whole / 60, whole % 60),
         _ => format!("{} h {} min", whole / 3600, whole % 3600 / 60),
+    }
+}
+
+/// `none`, `< 0.1 %`, `1.4 %`.
+pub fn share(share: f64) -> String {
+    match 100.0 * share {
+        0.0 => "none".to_owned(),
+        percent if percent < 0.05 => "< 0.1 %".to_owned(),
+        percent => format!("{percent:.1} %"),
     }
 }
 
@@ -75,9 +85,10 @@ mod tests {
     #[test]
     fn amounts_read_as_people_say_them() {
         assert_eq!(
-            [0.41, 9.9, 42.4, 200.0, 7500.0].map(duration),
-            ["0.4 s", "9.9 s", "42 s", "3 min 20 s", "2 h 5 min"]
+            [0.01, 0.41, 9.9, 42.4, 200.0, 7500.0].map(duration),
+            ["< 0.1 s", "0.4 s", "9.9 s", "42 s", "3 min 20 s", "2 h 5 min"]
         );
+        assert_eq!([0.0, 0.0003, 0.0141].map(share), ["none", "< 0.1 %", "1.4 %"]);
         assert_eq!(
             [640, 3_210_000, 5_000_000_000].map(bytes),
             ["640 B", "3.2 MB", "5.0 GB"]

@@ -1,22 +1,14 @@
-use clap::Args;
 use serde_json::json;
 
+use super::CliError;
 use super::run::{self, Arguments as RunArguments};
+use super::survey::{self, OfResults};
 use super::terminal::Terminal;
-use super::{CliError, survey};
 use crate::executor::launch;
 use crate::store::State;
 
-#[derive(Args, Debug)]
-pub struct Arguments {
-    #[command(flatten)]
-    pub common: survey::Common,
-    #[command(flatten)]
-    pub place: survey::Place,
-}
-
 /// `cgaft study plan FILE`: every case, and the command that computes it.
-pub fn plan(arguments: &Arguments) -> Result<u8, CliError> {
+pub fn plan(arguments: &OfResults) -> Result<u8, CliError> {
     show(&RunArguments::planning(
         arguments.common.clone(),
         arguments.place.clone(),

@@ -26,26 +26,13 @@ pub fn watcher(terminal: Terminal, store: &Store) -> Box<dyn Watcher> {
     }
 }
 
-/// `step 1200/20000  strain 0.310 %  tip 56.2 nm  about 40 s left`
+/// `about 40 s left  strain 0.310 %  tip 56.2 nm  step 1200/20000`
 fn progress_words(progress: &Progress, pace: &Pace) -> String {
-    let Progress {
-        step,
-        of,
-        strain,
-        tip_nm,
-        percent,
-        ..
-    } = progress;
-    let tip = tip_nm.map(|tip| format!("  tip {tip:.1} nm")).unwrap_or_default();
     // A narrow terminal cuts the end off, so the time left comes first.
     let left = pace
-        .seconds_left(*percent)
+        .seconds_left(progress.percent)
         .map(|left| format!("about {} left  ", format::duration(left)));
-    format!(
-        "{}strain {:.3} %{tip}  step {step}/{of}",
-        left.unwrap_or_default(),
-        100.0 * strain
-    )
+    format!("{}{progress}", left.unwrap_or_default())
 }
 
 const STOPPING: &str = "stopping: the cases write their checkpoints (Ctrl-C again ends them at once)";

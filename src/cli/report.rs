@@ -3,25 +3,16 @@ mod gather;
 use std::fs;
 use std::path::PathBuf;
 
-use clap::Args;
 use serde_json::json;
 
 use super::CliError;
-use super::survey::{self, Common, Place, Survey};
+use super::survey::{self, OfResults, Survey};
 use super::terminal::Terminal;
 use crate::report;
 use crate::store::{Program, State};
 
-#[derive(Args, Debug)]
-pub struct Arguments {
-    #[command(flatten)]
-    pub common: Common,
-    #[command(flatten)]
-    pub place: Place,
-}
-
 /// `cgaft study report FILE`
-pub fn rebuild_report(arguments: &Arguments) -> Result<u8, CliError> {
+pub fn rebuild_report(arguments: &OfResults) -> Result<u8, CliError> {
     let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
     survey.store.prepare()?;
     let path = rebuild(&survey)?;
@@ -66,7 +57,8 @@ fn stamp_path(survey: &Survey) -> PathBuf {
     survey.store.root().join(".report-of")
 }
 
-/// Changes with everything that the report shows: the study's text, the program, and what became of each case.
+/// Changes with everything that the report shows: the study's text, what it compares with, the program, and what
+/// became of each case.
 fn fingerprint(survey: &Survey) -> String {
     let endings: Vec<_> = survey
         .entries
@@ -77,7 +69,12 @@ fn fingerprint(survey: &Survey) -> String {
             other => (&entry.planned.name, &entry.id, other.word(), None),
         })
         .collect();
-    let all = json!([Program::current(), survey.plan.source, endings]);
+    let all = json!([
+        Program::current(),
+        survey.plan.source(),
+        survey.plan.comparisons,
+        endings
+    ]);
     blake3::hash(all.to_string().as_bytes()).to_hex().to_string()
 }
 

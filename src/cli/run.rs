@@ -130,7 +130,7 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
             wanted.push(entry);
         }
     }
-    let estimates = estimates(wanted.iter().map(|entry| &entry.planned))?;
+    let estimates = estimates(&survey.plan, wanted.iter().map(|entry| &entry.planned))?;
     let job = |(entry, estimate): (&Entry, &Estimate)| Job {
         name: entry.planned.name.clone(),
         id: entry.id.clone(),
@@ -162,7 +162,6 @@ pub fn summary(cases: usize, share: Share) -> String {
 }
 
 fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: &Arguments, terminal: Terminal) {
-    tell_what_is_not_read(&survey.plan, terminal);
     for &position in chosen {
         let Entry {
             planned, state, reason, ..
@@ -271,14 +270,5 @@ impl Arguments {
             fresh: false,
             quiet: false,
         }
-    }
-}
-
-/// What a study may say already and this version does not act on.
-pub fn tell_what_is_not_read(plan: &planning::Plan, terminal: Terminal) {
-    for (quantity, file) in &plan.compare {
-        terminal.say(&format!(
-            "`compare`: {file} is not read in this version; set it beside the tables by hand for `{quantity}`"
-        ));
     }
 }

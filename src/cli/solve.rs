@@ -15,11 +15,12 @@ use signal_hook::flag;
 use super::progress;
 use super::terminal::{self, warn};
 use crate::executor::{Progress, exit};
+use crate::plan::{self, CaseId, Plan, PlannedCase};
 use crate::setup::{self, RunCaseError};
 use crate::solver::{self, Ending};
-use crate::store::{self, FolderLock, Outcome, Phase, StoreError};
+use crate::store::{self, FolderLock, Outcome, StoreError};
+use crate::study::StudyError;
 use crate::study::case::Case;
-use crate::study::{self, StudyError};
 
 /// Compute one case of a study.
 ///
@@ -88,7 +89,8 @@ pub fn main() -> ExitCode {
 }
 
 fn solve(arguments: &Arguments) -> Result<Ended, SolveError> {
-    let (name, case) = read_case(&arguments.case)?;
+    let plan = read_case(&arguments.case)?;
+    let PlannedCase { name, case, .. } = &plan.cases[0];
     let patience = Duration::from_secs(30);
     let Some(_lock) = FolderLock::take(&arguments.into, patience)? else {
         let folder = arguments.into.display();
@@ -96,32 +98,31 @@ fn solve(arguments: &Arguments) -> Result<Ended, SolveError> {
             "another solver writes into {folder}; wait for it, or choose another folder"
         )));
     };
-    refuse_another_case(&case, &arguments.case, &arguments.into)?;
+    refuse_another_case(case, &arguments.case, &arguments.into)?;
     let stop = stop_flag(arguments.parent_pipe)?;
     let cores = || thread::available_parallelism().map_or(1, usize::from) as u32;
     let threads = arguments.threads.or(case.execution.threads).unwrap_or_else(cores);
-    let mut tell = progress::teller(arguments.progress, &name);
-    let ended = compute(&case, &arguments.into, threads, &stop, tell.as_mut())?;
+    let mut tell = progress::teller(arguments.progress, name);
+    let ended = compute(case, &arguments.into, threads, &stop, tell.as_mut()).map_err(|error| refused(error, &plan))?;
     if let Ended::Finished(outcome) = &ended {
         outcome.write(&arguments.into)?;
     }
     Ok(ended)
 }
 
-fn read_case(path: &Path) -> Result<(String, Case), SolveError> {
+fn read_case(path: &Path) -> Result<Plan, SolveError> {
     let text = path
         .to_str()
         .ok_or_else(|| SolveError::Input(format!("{} is not UTF-8; rename it", path.display())))?;
-    Ok(study::read_case(text)?)
+    Ok(plan::read_case(text)?)
 }
 
 /// A checkpoint of one case must not become the start of another.
 fn refuse_another_case(case: &Case, path: &Path, into: &Path) -> Result<(), SolveError> {
     let kept = into.join("case.yaml");
     if kept.exists() {
-        let (_, mut old) = read_case(&kept)?;
-        old.execution = case.execution.clone();
-        return if old == *case {
+        let old = &read_case(&kept)?.cases[0].case;
+        return if CaseId::of(old) == CaseId::of(case) {
             Ok(())
         } else {
             Err(SolveError::Input(other_case(into)))
@@ -164,6 +165,7 @@ impl SolveError {
             SolveError::Study(_) | SolveError::Input(_) => exit::BAD_INPUT,
             SolveError::Environment(_) => exit::MISSING_ENVIRONMENT,
             SolveError::Physics(_) => exit::PHYSICS_FAILED,
+            SolveError::Store(store) if store.is_of_the_input() => exit::BAD_INPUT,
             SolveError::Output(_) | SolveError::Store(_) => exit::OUTPUT_FAILED,
         }
     }
@@ -183,7 +185,7 @@ fn compute(
     threads: u32,
     stop: &AtomicBool,
     tell: &mut (dyn FnMut(&Progress) + Send),
-) -> Result<Ended, SolveError> {
+) -> Result<Ended, RunCaseError> {
     let mut tell = |progress: &solver::Progress| {
         let of = progress.of.max(1);
         tell(&Progress {
@@ -199,29 +201,24 @@ fn compute(
     if finished.ending == Ending::Interrupted {
         return Ok(Ended::Interrupted);
     }
-    let phase = |(phase, calls, seconds): (solver::Phase, u64, f64)| Phase {
-        name: phase.name().to_owned(),
-        calls,
-        seconds,
-    };
     Ok(Ended::Finished(Outcome {
         end_reason: finished.ending.to_string(),
         steps: finished.steps,
         time_step_ps: finished.time_step,
         stability_limit_ps: finished.stability_limit,
         energy_error_relative: finished.energy_error,
-        cost: finished.cost.rows().map(phase).collect(),
+        cost: finished.cost,
     }))
 }
 
-impl From<RunCaseError> for SolveError {
-    fn from(error: RunCaseError) -> Self {
-        match error {
-            RunCaseError::Setup(setup) => Self::Input(setup.to_string()),
-            physics @ RunCaseError::Physics(..) => Self::Physics(physics.to_string()),
-            RunCaseError::Record(record) if record.is_write_failure() => Self::Output(record.to_string()),
-            RunCaseError::Record(record) => Self::Input(record.to_string()),
-            threads @ RunCaseError::Threads { .. } => Self::Environment(threads.to_string()),
-        }
+/// What kept a case from its end, with the exit code that it means.
+fn refused(error: RunCaseError, plan: &Plan) -> SolveError {
+    match error {
+        RunCaseError::Setup(setup) => SolveError::Study(plan.refuse([(plan.cases[0].name.as_str(), setup.refusal())])),
+        physics @ RunCaseError::Physics(..) => SolveError::Physics(physics.to_string()),
+        RunCaseError::Record(record) if record.is_write_failure() => SolveError::Output(record.to_string()),
+        RunCaseError::Record(record) => SolveError::Input(record.to_string()),
+        RunCaseError::Store(store) => SolveError::Store(store),
+        threads @ RunCaseError::Threads { .. } => SolveError::Environment(threads.to_string()),
     }
 }

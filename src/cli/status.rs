@@ -1,21 +1,12 @@
-use clap::Args;
 use serde_json::json;
 
-use super::survey::{self, Common, Entry, Place, Survey};
+use super::survey::{self, Entry, OfResults, Survey};
 use super::terminal::Terminal;
 use super::{CliError, format};
 use crate::store::State;
 
-#[derive(Args, Debug)]
-pub struct Arguments {
-    #[command(flatten)]
-    pub common: Common,
-    #[command(flatten)]
-    pub place: Place,
-}
-
 /// `cgaft study status FILE`
-pub fn status(arguments: &Arguments) -> Result<u8, CliError> {
+pub fn status(arguments: &OfResults) -> Result<u8, CliError> {
     let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
     let cases: Vec<_> = survey.entries.iter().map(Entry::to_json).collect();
     let json = json!({ "study": survey.plan.study, "results": survey.store.root(), "cases": cases });

@@ -30,6 +30,15 @@ pub struct Place {
     pub results: PathBuf,
 }
 
+/// What the commands want to know that look at results.
+#[derive(Args, Clone, Debug)]
+pub struct OfResults {
+    #[command(flatten)]
+    pub common: Common,
+    #[command(flatten)]
+    pub place: Place,
+}
+
 /// A study, its cases and their states.
 #[derive(Debug)]
 pub struct Survey {

@@ -5,7 +5,7 @@ use std::io::{BufRead, BufReader, Write};
 use std::os::unix::process::CommandExt;
 use std::process::{Child, ChildStdin, Command, ExitStatus, Stdio};
 use std::sync::mpsc::Sender;
-use std::thread;
+use std::thread::{self, JoinHandle};
 
 use super::{ExecutorError, Launch, Progress};
 
@@ -24,6 +24,8 @@ pub struct Running {
     child: Child,
     /// Open as long as the child shall go on. It closes by itself if this process dies, so that no orphan computes on.
     leash: Option<ChildStdin>,
+    /// Hears what it says.
+    listener: Option<JoinHandle<()>>,
 }
 
 /// Starts a solver, away from the terminal's Ctrl-C; its standard error goes to the log.
@@ -43,8 +45,12 @@ pub fn start(job: usize, launch: &Launch, log: File, events: Sender<Event>) -> R
         .map_err(failed)?;
     let leash = child.stdin.take();
     let output = child.stdout.take().expect("its output was asked for above");
-    thread::spawn(move || listen(job, BufReader::new(output), log, &events));
-    Ok(Running { child, leash })
+    let listener = thread::spawn(move || listen(job, BufReader::new(output), log, &events));
+    Ok(Running {
+        child,
+        leash,
+        listener: Some(listener),
+    })
 }
 
 /// Progress becomes events; everything else that a child says belongs in its log.
@@ -72,9 +78,12 @@ impl Running {
         let _ = self.child.kill();
     }
 
-    /// How it ended; `None` while it goes on.
+    /// How it ended, once all that it said is in its log; `None` while it goes on.
     pub fn ended(&mut self) -> Option<ExitStatus> {
-        self.child.try_wait().ok().flatten()
+        let status = self.child.try_wait().ok().flatten()?;
+        // A published log must not grow any more. A listener that has panicked has nothing more to write.
+        let _ = self.listener.take().map(JoinHandle::join);
+        Some(status)
     }
 }
 

@@ -1,3 +1,5 @@
+use std::fmt;
+
 use serde::{Deserialize, Serialize};
 
 /// How far a case is: one JSON object a line on the standard output of the solver.
@@ -12,6 +14,16 @@ pub struct Progress {
     /// Foremost crack tip from the left edge, nm; `None` without a crack.
     pub tip_nm: Option<f64>,
     pub percent: f64,
+}
+
+impl fmt::Display for Progress {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "strain {:.3} %", 100.0 * self.strain)?;
+        if let Some(tip) = self.tip_nm {
+            write!(f, "  tip {tip:.1} nm")?;
+        }
+        write!(f, "  step {}/{}", self.step, self.of)
+    }
 }
 
 impl Progress {

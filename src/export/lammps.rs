@@ -25,6 +25,11 @@ pub enum ExportError {
          export a case with `resolution: {{element: 1}}`"
     )]
     NotAtoms { element: u32 },
+    #[error(
+        "it comes to rest before it moves, and the input starts from the perfect lattice; \
+         export a case without `run.relax`"
+    )]
+    Relaxed,
     #[error("LAMMPS has no pair style that equals {what}; it has those that equal {available}")]
     NoPairStyle {
         what: &'static str,
@@ -46,6 +51,9 @@ impl<'a> Model<'a> {
         let element = case.resolution.element;
         if element != 1 {
             return Err(ExportError::NotAtoms { element });
+        }
+        if case.run.relax.is_some() {
+            return Err(ExportError::Relaxed);
         }
         Ok(Self {
             mesh,

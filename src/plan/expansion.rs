@@ -6,6 +6,8 @@ use crate::study::{CaseFile, Finding, Findings, Given, Overlay, Place, StudyFile
 /// A case before its choices are checked.
 pub struct Draft {
     pub name: String,
+    /// The name that the sweep started from.
+    pub origin: String,
     /// Where its name comes from.
     pub place: Place,
     pub values: Given<CaseFile>,
@@ -57,6 +59,7 @@ fn varied(draft: &Draft, point: &sweep::Point, named: bool) -> Draft {
     };
     Draft {
         name,
+        origin: draft.origin.clone(),
         place: point.place,
         values,
     }
@@ -67,6 +70,7 @@ fn starts(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
     match &content.cases {
         Given::Absent => vec![Draft {
             name: ONLY.into(),
+            origin: ONLY.into(),
             place: Place::default(),
             values: content.base.clone(),
         }],
@@ -81,6 +85,7 @@ fn starts(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
                 values.overlay(change);
                 Draft {
                     name: case.text.clone(),
+                    origin: case.text.clone(),
                     place: case.place,
                     values,
                 }

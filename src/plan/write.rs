@@ -10,7 +10,7 @@ use std::fmt::Write;
 /// Widest line into which a map or list is gathered.
 const WIDTH: usize = 110;
 
-/// The case as YAML a person can read, every default explicit; `study::read_case` reads it back to the bit.
+/// The case as YAML a person can read, every default explicit; `read_case` reads it back to the bit.
 pub fn write_case(planned: &PlannedCase) -> String {
     let mut base = spelled(&planned.case);
     if let Value::Object(run) = &mut base["run"] {

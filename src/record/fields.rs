@@ -13,16 +13,18 @@ use super::field::{CELL_FIELDS, Field, POINT_FIELDS};
 use super::frames::{FieldMesh, Frame};
 use super::mesh::{check_mesh, put_mesh};
 use super::pieces::FramePiece;
+use super::provenance::put_provenance;
 use super::snapshots::read_frame;
 use super::steps::Steps;
 use super::{RecordError, file};
 
 /// Writes mesh and frames into a new file at `path`; holds one frame at a time.
-pub(super) fn assemble(path: &Path, mesh: &FieldMesh, frames: &[FramePiece]) -> Result<(), RecordError> {
+pub(super) fn assemble(path: &Path, case_id: &str, mesh: &FieldMesh, frames: &[FramePiece]) -> Result<(), RecordError> {
     let cannot_write = |cause: hdf5::Error| RecordError::cannot_write(path, cause);
     check_mesh(mesh).map_err(|what| RecordError::gap(path, what))?;
     let cells = mesh.element_size.len();
     let file = file::create(path, 0).map_err(cannot_write)?;
+    put_provenance(&file, case_id).map_err(cannot_write)?;
     let grid = new_group(&file, "VTKHDF").map_err(cannot_write)?;
     put_mesh(&grid, mesh).map_err(cannot_write)?;
 

@@ -14,7 +14,7 @@ use super::{FIELDS_FILE, RecordError, SERIES_FILE, aside, fields};
 use crate::analysis::series::Setting;
 
 /// Makes [`SERIES_FILE`] of the segments in `dir`, then removes them.
-pub fn publish_series(dir: &Path, setting: &Setting) -> Result<(), RecordError> {
+pub fn publish_series(dir: &Path, case_id: &str, setting: &Setting) -> Result<(), RecordError> {
     let segments = Pieces::list(dir)?.segments;
     let path = dir.join(SERIES_FILE);
     if is_there(&path)? {
@@ -24,7 +24,7 @@ pub fn publish_series(dir: &Path, setting: &Setting) -> Result<(), RecordError> 
             last_published_probe(dir)?,
         )?;
     } else {
-        write_series(&path, setting, &read_segments(dir)?)?;
+        write_series(&path, case_id, setting, &read_segments(dir)?)?;
     }
     remove(dir, segments.iter().map(|piece| &piece.path))
 }
@@ -32,13 +32,13 @@ pub fn publish_series(dir: &Path, setting: &Setting) -> Result<(), RecordError> 
 /// Makes [`FIELDS_FILE`] of the frames in `dir`, one frame in memory at a time, then removes them.
 ///
 /// A run without frames gets no such file.
-pub fn publish_fields(dir: &Path, mesh: &FieldMesh) -> Result<(), RecordError> {
+pub fn publish_fields(dir: &Path, case_id: &str, mesh: &FieldMesh) -> Result<(), RecordError> {
     let frames = Pieces::list(dir)?.frames;
     let path = dir.join(FIELDS_FILE);
     if is_there(&path)? {
         nothing_newer(&path, frames.last().map(|piece| piece.step), last_published_frame(dir)?)?;
     } else if !frames.is_empty() {
-        aside::replace(&path, |aside| fields::assemble(aside, mesh, &frames))?;
+        aside::replace(&path, |aside| fields::assemble(aside, case_id, mesh, &frames))?;
     }
     remove(dir, frames.iter().map(|piece| &piece.path))
 }

@@ -9,6 +9,7 @@ use hdf5::Group;
 
 use super::RecordError;
 use super::arrays::{Packing, get, get_column, get_rows, new_group, put};
+use super::provenance::put_provenance;
 use super::sealed::{self, Seal};
 use super::setting::{get_setting, put_setting};
 use crate::analysis::series::{BondEvent, Probe, Series, Setting};
@@ -24,8 +25,9 @@ pub fn read_series(path: &Path) -> Result<(Setting, Series), RecordError> {
 }
 
 /// Counterpart of [`read_series`].
-pub(super) fn write_series(path: &Path, setting: &Setting, series: &Series) -> Result<(), RecordError> {
+pub(super) fn write_series(path: &Path, case_id: &str, setting: &Setting, series: &Series) -> Result<(), RecordError> {
     sealed::write(path, SEAL, |file| {
+        put_provenance(file, case_id)?;
         put_setting(file, setting)?;
         put_series(file, series)
     })

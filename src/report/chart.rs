@@ -174,7 +174,14 @@ impl Chart {
         let (left, right) = (78 * FINE, (WIDTH as i32 - 10) * FINE);
         let (mut x, mut y) = (left, row * 2 / 3);
         for curve in &self.curves {
-            let width = line + gap + root.estimate_text_size(&curve.label, &font)?.0 as i32 + 2 * gap;
+            let length = |label: &str| root.estimate_text_size(label, &font).map(|size| size.0 as i32);
+            let mut label = curve.label.clone();
+            let mut kept = label.chars().count();
+            while length(&label)? > right - left - line - gap && kept > 2 {
+                kept -= 2;
+                label = shortened(&curve.label, kept);
+            }
+            let width = line + gap + length(&label)? + 2 * gap;
             if x > left && x + width > right {
                 (x, y) = (left, y + row);
             }
@@ -186,11 +193,7 @@ impl Chart {
                 }
             }
             root.draw(&curve.marker((x + line / 2, y)))?;
-            root.draw(&Text::new(
-                curve.label.clone(),
-                (x + line + gap, y - TEXT * FINE / 2),
-                font.clone(),
-            ))?;
+            root.draw(&Text::new(label, (x + line + gap, y - TEXT * FINE / 2), font.clone()))?;
             x += width;
         }
         Ok(y + row / 2)
@@ -222,6 +225,14 @@ impl Chart {
         let room = if high > low { 0.04 * (high - low) } else { 1.0 };
         (left..right, if low < 0.0 { low - room } else { 0.0 }..high + room)
     }
+}
+
+/// The beginning and the end of a text, with so many letters in all: names of cases from a sweep differ at their end.
+fn shortened(text: &str, kept: usize) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    let half = kept / 2;
+    let [start, end] = [&letters[..half], &letters[letters.len() - half..]].map(|part| part.iter().collect::<String>());
+    format!("{start}…{end}")
 }
 
 type Axes<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;

@@ -2,6 +2,7 @@
 
 use super::Analysed;
 use super::chart::{Chart, Curve};
+use super::numbers;
 use super::tables::profile_at_initiation;
 use super::units::{GIGAPASCAL, PERCENT};
 use crate::analysis::series::Probe;
@@ -24,6 +25,19 @@ pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
     }
     charts.retain(|chart| !chart.curves.is_empty());
     charts
+}
+
+/// Whether a report may have drawn a file of this name.
+pub fn is_of_a_report(name: &str) -> bool {
+    const COMMON: [&str; 5] = [
+        "stress-strain",
+        "crack-speed",
+        "tip-position",
+        "stress-profile",
+        "energy-imbalance",
+    ];
+    let id = name.strip_suffix(".svg").unwrap_or_default();
+    COMMON.contains(&id) || id.strip_prefix("energy-").is_some_and(numbers::is_index)
 }
 
 /// One curve a case.

@@ -27,10 +27,19 @@ pub fn count(value: u64) -> String {
     grouped(&value.to_string())
 }
 
-/// A share in percent, with its sign.
+/// Whether a text is the number of a case.
+pub fn is_index(text: &str) -> bool {
+    !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit())
+}
+
+/// A share in percent, with its sign where it is large enough to have one.
 pub fn signed_percent(share: f64) -> String {
-    let text = format!("{:+.1} %", share * 100.0);
-    minus(if text == "-0.0 %" { "+0.0 %".to_owned() } else { text })
+    let percent = share * 100.0;
+    match percent.abs() {
+        0.0 => "0 %".to_owned(),
+        size if size < 0.05 => "< 0.1 %".to_owned(),
+        _ => minus(format!("{percent:+.1} %")),
+    }
 }
 
 /// Seconds as `0.84 s`, `3 min 20 s`, `2 h 05 min`.
@@ -115,6 +124,7 @@ mod tests {
     #[test]
     fn percentages_carry_their_sign() {
         assert_eq!(signed_percent(0.0061), "+0.6 %");
-        assert_eq!(signed_percent(-0.0001), "+0.0 %");
+        assert_eq!(signed_percent(-0.061), "−6.1 %");
+        assert_eq!([-0.0001, 0.0].map(signed_percent), ["< 0.1 %", "0 %"]);
     }
 }

@@ -4,7 +4,8 @@ use super::chart::{Chart, Drawing};
 use super::picture::{Gallery, Picture};
 use super::summary::{self, Group};
 use super::tables::Table;
-use super::{Analysed, ReportError, Study, method, numbers};
+use super::{Analysed, ReportError, Study, expected, method, numbers};
+use crate::plan::Comparison;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment, Value, context};
 
@@ -49,6 +50,7 @@ impl Page<'_> {
             verdict => summary::verdict(self.cases),
             names => list(self.cases, |case| case.name().into()),
             groups => list(&summary::groups(self.cases), group),
+            comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),
             pictures => list(&self.gallery.pictures, picture),
             limit => numbers::tick(self.gallery.limit),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
@@ -59,6 +61,18 @@ impl Page<'_> {
             version => versions.find(|version| !version.is_empty()),
         };
         Ok(environment.get_template(name)?.render(page)?)
+    }
+}
+
+impl Page<'_> {
+    /// What comes from elsewhere beside what the cases say.
+    fn comparison(&self, comparison: &Comparison) -> Value {
+        let lines = expected::lines(comparison, self.tables);
+        context! {
+            name => &comparison.name,
+            file => &comparison.file,
+            rows => list(&lines, |line| line.cells().to_vec().into()),
+        }
     }
 }
 

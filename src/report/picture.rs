@@ -79,6 +79,12 @@ pub fn draw_all(cases: &[Analysed], folder: &Path) -> Result<Gallery, ReportErro
     Ok(Gallery { pictures, limit })
 }
 
+/// Whether a report may have drawn a file of this name.
+pub fn is_of_a_report(name: &str) -> bool {
+    let number = name.strip_prefix("slab-").and_then(|rest| rest.strip_suffix(".png"));
+    number.is_some_and(numbers::is_index)
+}
+
 fn caption(case: &Analysed, frame: &Frame) -> String {
     let strain = numbers::significant(frame.strain * PERCENT, 3);
     let time = numbers::significant(frame.time, 3);

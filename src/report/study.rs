@@ -1,6 +1,7 @@
 //! What a report is made from: plain values, whoever read them from where.
 
 use crate::analysis::series::{Series, Setting};
+use crate::plan::Comparison;
 use crate::record::frames::{FieldMesh, Frame};
 
 /// A study and the results of its cases, in the order in which they are to be shown.
@@ -12,6 +13,8 @@ pub struct Study {
     pub question: Option<String>,
     /// The study file as typed.
     pub text: String,
+    /// What the cases are to be compared with.
+    pub comparisons: Vec<Comparison>,
     pub cases: Vec<CaseResult>,
 }
 

@@ -7,6 +7,12 @@ use super::{Analysed, CaseResult};
 /// More cases than this are left to the table.
 const MOST_NAMED: usize = 4;
 
+/// So that a difference of just one probe counts as one, however it was rounded.
+const ROUNDING: f64 = 1.0 + 1e-6;
+
+/// Factors below this are not worth a number.
+const ALIKE: f64 = 1.05;
+
 /// Rows that belong together; one cell a case.
 pub struct Group {
     pub title: &'static str,
@@ -55,17 +61,14 @@ pub fn verdict(cases: &[Analysed]) -> String {
         ),
     }];
     sentences.extend(cases.iter().enumerate().filter_map(|(index, reference)| {
-        let start = reference
-            .findings
-            .initiation
-            .filter(|_| reference.reference == Some(index))?;
-        let strain = significant(start.strain * PERCENT, 3);
+        // Each specimen has a case of its own that the others are measured against; one without a crack says nothing.
+        let has_crack = !reference.findings.tips.is_empty();
+        let mut sentence = start(reference).filter(|_| has_crack && reference.reference == Some(index))?;
         let others = cases
             .iter()
             .enumerate()
             .filter(|(other, case)| *other != index && case.reference == Some(index));
-        let others: Vec<String> = others.map(|(_, case)| against(case, reference)).collect();
-        let mut sentence = format!("In {} the crack starts at {strain} % strain", reference.name());
+        let others: Vec<String> = others.filter_map(|(_, case)| against(case, reference)).collect();
         if others.len() <= MOST_NAMED {
             others.iter().for_each(|other| sentence.push_str(&format!("; {other}")));
         }
@@ -74,24 +77,67 @@ pub fn verdict(cases: &[Analysed]) -> String {
     sentences.join(" ")
 }
 
+/// `In atoms the crack starts at 1.79 % strain`, or that it does not.
+fn start(case: &Analysed) -> Option<String> {
+    let percent = |strain: f64| significant(strain * PERCENT, 3);
+    Some(match case.findings.initiation {
+        Some(start) => format!(
+            "In {} the crack starts at {} % strain",
+            case.name(),
+            percent(start.strain)
+        ),
+        None => {
+            let end = case.result.series.probes.last()?.strain;
+            format!(
+                "In {} the crack does not start up to {} % strain",
+                case.name(),
+                percent(end)
+            )
+        }
+    })
+}
+
 fn plural(count: usize) -> &'static str {
     if count == 1 { "case" } else { "cases" }
 }
 
 /// `in coarse 39.3 % later, with 18 times fewer nodes and 22 times faster`
-fn against(case: &Analysed, reference: &Analysed) -> String {
+fn against(case: &Analysed, reference: &Analysed) -> Option<String> {
+    let name = case.name();
     let mut text = match case.difference.initiation_strain {
-        Some(share) if share < 0.0 => format!("in {} {:.1} % earlier", case.name(), -share * PERCENT),
-        Some(share) => format!("in {} {:.1} % later", case.name(), share * PERCENT),
-        None => format!("in {} it does not", case.name()),
+        Some(share) if share.abs() <= ROUNDING * between_probes(case, reference)? => {
+            format!("in {name} at the same strain, within a probe")
+        }
+        Some(share) if share < 0.0 => format!("in {name} {:.1} % earlier", -share * PERCENT),
+        Some(share) => format!("in {name} {:.1} % later", share * PERCENT),
+        None => start(case)?.replacen("In", "in", 1).replacen("the crack", "it", 1),
     };
     let nodes = |case: &Analysed| case.result.setting.as_ref().map(|setting| setting.nodes as f64);
     let wall = |case: &Analysed| case.result.manifest.wall_seconds.filter(|&wall| wall > 0.0);
-    let times = |of: &dyn Fn(&Analysed) -> Option<f64>| Some(significant(of(reference)? / of(case)?, 2));
+    let times = |of: &dyn Fn(&Analysed) -> Option<f64>| Some(of(reference)? / of(case)?);
     if let Some((nodes, time)) = times(&nodes).zip(times(&wall)) {
-        text.push_str(&format!(", with {nodes} times fewer nodes and {time} times faster"));
+        let nodes = match nodes {
+            ..ALIKE => "as many nodes".to_owned(),
+            fewer => format!("{} times fewer nodes", significant(fewer, 2)),
+        };
+        let pace = match time {
+            ALIKE.. => format!("{} times faster", significant(time, 2)),
+            _ if time * ALIKE <= 1.0 => format!("{} times slower", significant(1.0 / time, 2)),
+            _ => "as fast".to_owned(),
+        };
+        text.push_str(&format!(", with {nodes} and {pace}"));
     }
-    text
+    Some(text)
+}
+
+/// Strain between the probes at which two cracks start, over the strain of the second: what cannot be told apart.
+fn between_probes(case: &Analysed, reference: &Analysed) -> Option<f64> {
+    let gap = |case: &Analysed| {
+        let start = case.findings.initiation?;
+        let before = case.result.series.probes.get(start.probe.checked_sub(1)?)?;
+        Some(start.strain - before.strain)
+    };
+    Some(gap(case)?.max(gap(reference)?) / reference.findings.initiation?.strain)
 }
 
 /// The choices that are not the same in all cases.
@@ -191,12 +237,18 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
     let own = |case: &Analysed| case.reference.is_some_and(|index| std::ptr::eq(case, &cases[index]));
     let or_reference =
         |case: &Analysed, text: Option<String>| if own(case) { Some("reference".to_owned()) } else { text };
-    let share = |value: Option<f64>| value.map(signed_percent);
+    let later = |case: &Analysed| {
+        let share = case.difference.initiation_strain?;
+        let gap = between_probes(case, &cases[case.reference?])?;
+        Some(if share.abs() <= ROUNDING * gap {
+            format!("none within a probe ({} %)", significant(gap * PERCENT, 2))
+        } else {
+            signed_percent(share)
+        })
+    };
     let misfit = |value: Option<f64>| value.map(|share| format!("{} %", significant(share * PERCENT, 2)));
     vec![
-        row(cases, "strain at initiation", |case| {
-            or_reference(case, share(case.difference.initiation_strain))
-        }),
+        row(cases, "strain at initiation", |case| or_reference(case, later(case))),
         row(cases, "stress before initiation, at most", |case| {
             or_reference(case, misfit(case.difference.stress))
         }),

@@ -7,9 +7,10 @@ use polars::prelude::*;
 
 use super::numbers::{self, round_significant};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
-use super::{Analysed, ReportError};
+use super::{Analysed, ReportError, expected};
 use crate::analysis::stress_intensity;
-use crate::analysis::waves::{Face, Wave};
+use crate::analysis::waves::{Arrival, Face, Wave};
+use crate::plan::Comparison;
 
 /// Digits of a number in a file: more than any of them means, few enough to be read.
 const DIGITS: usize = 9;
@@ -24,13 +25,13 @@ pub struct Table {
 }
 
 /// All tables, in the order in which they are shown.
-pub fn all(cases: &[Analysed]) -> Result<Vec<Table>, ReportError> {
-    let tables = [
+pub fn all(cases: &[Analysed], comparisons: &[Comparison]) -> Result<Vec<Table>, ReportError> {
+    let own = [
         ("summary", summary(cases)),
         ("crack_speed", crack_speed(cases)),
         ("stress_profile", stress_profile(cases)),
         ("stress_strain", stress_strain(cases)),
-        ("wave_arrival", wave_arrival(cases)),
+        ("wave_arrival", wave_arrival(cases, comparisons)),
         ("branches", branches(cases)),
         ("cost", cost(cases)),
     ];
@@ -41,7 +42,11 @@ pub fn all(cases: &[Analysed]) -> Result<Vec<Table>, ReportError> {
             reason: error.to_string(),
         }),
     };
-    tables.into_iter().map(make).collect()
+    let mut tables = own.into_iter().map(make).collect::<Result<Vec<_>, _>>()?;
+    if !comparisons.is_empty() {
+        tables.push(make(("comparison", expected::columns(comparisons, &tables)))?);
+    }
+    Ok(tables)
 }
 
 impl Table {
@@ -73,6 +78,24 @@ impl Table {
             .collect()
     }
 
+    /// The number in a column of the row of a case that has these words in these columns.
+    pub fn value(&self, case: &str, keys: &[(&str, String)], column: &str) -> Option<f64> {
+        let holds = |row: usize, column: &str, word: &str| {
+            let cell = self
+                .frame
+                .column(column)
+                .and_then(|column| column.get(row).map(AnyValue::into_static));
+            matches!(cell, Ok(cell) if cell.get_str() == Some(word))
+        };
+        let mut rows = 0..self.height();
+        let row = rows.find(|&row| holds(row, "case", case) && keys.iter().all(|(key, word)| holds(row, key, word)))?;
+        match self.frame.column(column).ok()?.get(row).ok()? {
+            AnyValue::Float64(value) => Some(value),
+            AnyValue::UInt64(value) => Some(value as f64),
+            _ => None,
+        }
+    }
+
     pub fn height(&self) -> usize {
         self.frame.height()
     }
@@ -93,14 +116,19 @@ impl Table {
 }
 
 /// Rows of one kind, from which columns are made.
-struct Rows<T>(Vec<T>);
+pub struct Rows<T>(pub Vec<T>);
 
 impl<T> Rows<T> {
-    fn text(&self, name: &str, of: impl Fn(&T) -> &str) -> Column {
+    pub fn text(&self, name: &str, of: impl Fn(&T) -> &str) -> Column {
         Column::new(name.into(), self.0.iter().map(of).collect::<Vec<&str>>())
     }
 
-    fn number<N: Into<Option<f64>>>(&self, name: &str, of: impl Fn(&T) -> N) -> Column {
+    /// Empty where there is none.
+    pub fn word(&self, name: &str, of: impl Fn(&T) -> Option<&str>) -> Column {
+        Column::new(name.into(), self.0.iter().map(of).collect::<Vec<Option<&str>>>())
+    }
+
+    pub fn number<N: Into<Option<f64>>>(&self, name: &str, of: impl Fn(&T) -> N) -> Column {
         let finite = |row| of(row).into().filter(|value: &f64| value.is_finite());
         let values = self
             .0
@@ -237,24 +265,29 @@ fn stress_strain(cases: &[Analysed]) -> Vec<Column> {
     ]
 }
 
-fn wave_arrival(cases: &[Analysed]) -> Vec<Column> {
+fn wave_arrival(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Column> {
     let rows = collect(cases, |case| {
         case.findings.arrivals.iter().map(move |arrival| (case, arrival))
     });
+    let wave = |arrival: &Arrival| match arrival.wave {
+        Wave::Longitudinal => "longitudinal",
+        Wave::Transverse => "transverse",
+        Wave::Rayleigh => "rayleigh",
+    };
+    let path = |arrival: &Arrival| match arrival.face {
+        Face::Left => "left face",
+        Face::TopAndBottom => "top and bottom faces",
+    };
     vec![
         rows.text("case", |row| &row.0.result.name),
-        rows.text("wave", |row| match row.1.wave {
-            Wave::Longitudinal => "longitudinal",
-            Wave::Transverse => "transverse",
-            Wave::Rayleigh => "rayleigh",
-        }),
-        rows.text("path", |row| match row.1.face {
-            Face::Left => "left face",
-            Face::TopAndBottom => "top and bottom faces",
-        }),
+        rows.text("wave", |row| wave(row.1)),
+        rows.text("path", |row| path(row.1)),
         rows.number("predicted_ps", |row| row.1.predicted),
         rows.number("measured_ps", |row| row.1.measured),
-        rows.number("reference_ps", |_| None),
+        rows.number("reference_ps", |row| {
+            let keys = [wave(row.1), path(row.1)];
+            expected::value(comparisons, "wave_arrival", row.0.name(), &keys)
+        }),
     ]
 }
 

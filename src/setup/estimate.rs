@@ -25,6 +25,8 @@ pub struct Estimate {
     pub stability_limit: f64,
     pub steps: u64,
     pub memory_bytes: u64,
+    /// Of its pictures and its checkpoint, at most: while the pictures are put together.
+    pub disk_bytes: u64,
     /// Wall time on one thread, s.
     pub seconds: f64,
 }
@@ -71,8 +73,24 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
         stability_limit,
         steps,
         memory_bytes: census.memory(),
+        disk_bytes: disk(case, &census, steps as f64 * time_step),
         seconds: census.weigh(of_element) * steps as f64,
     })
+}
+
+/// Bytes on the disk of a run of so many ps. A picture has four doubles a node and an element; put together, it has six
+/// and seven singles, of which deflating may save little. A checkpoint has four doubles a node, and stands there twice
+/// while it is replaced.
+fn disk(case: &Case, census: &Census, time: f64) -> u64 {
+    let case::Loading::StrainRate { rate, .. } = case.loading;
+    let every = match case.snapshots.every {
+        None => f64::INFINITY,
+        Some(case::SnapshotInterval::Strain(strain)) => strain / rate,
+        Some(case::SnapshotInterval::Time(time)) => time,
+    };
+    let pictures = (time / every).floor() + 2.0;
+    let [nodes, elements] = [census.node_count() as f64, census.element_count() as f64];
+    (pictures * (nodes * (32.0 + 24.0) + elements * (32.0 + 28.0)) + 64.0 * nodes) as u64
 }
 
 /// The stability limit of the perfect crystal in this mesh, ps. The bound goes element by element, so each size is

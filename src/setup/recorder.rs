@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use super::RunCaseError;
 use crate::analysis::series::{BondEvent, Probe, Series};
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
@@ -9,7 +10,8 @@ use crate::mesh::element::Element;
 use crate::record::frames::{FieldMesh, Frame};
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
-use crate::solver::{Moment, Observer, Progress, Solver, site_volume};
+use crate::solver::{self, Cost, Moment, Observer, Progress, Solver, site_volume};
+use crate::store::{Account, Phase};
 
 /// Keeps probes in memory until the next checkpoint, and writes snapshots at once.
 pub struct Recorder<'a> {
@@ -20,6 +22,7 @@ pub struct Recorder<'a> {
     first_probe: u64,
     reference: [Vec<f64>; 2],
     site_volume: f64,
+    account: Account,
     tell: &'a mut (dyn FnMut(&Progress) + Send),
 }
 
@@ -36,6 +39,7 @@ impl<'a> Recorder<'a> {
             first_probe: solver.probe_count(),
             reference: solver.mesh().node_positions(),
             site_volume: site_volume(solver.setting()),
+            account: Account::open(folder),
             tell,
         }
     }
@@ -50,6 +54,11 @@ impl<'a> Recorder<'a> {
             ..Series::default()
         };
         Ok(())
+    }
+
+    /// What this attempt and those before it have cost.
+    pub fn total_cost(&self, cost: &Cost) -> Vec<Phase> {
+        self.account.total(&phases(cost))
     }
 
     fn frame(&self, moment: &Moment) -> Frame {
@@ -81,27 +90,37 @@ impl<'a> Recorder<'a> {
 }
 
 impl Observer for Recorder<'_> {
-    type Error = RecordError;
+    type Error = RunCaseError;
 
-    fn probe(&mut self, probe: &Probe, profile: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), RecordError> {
+    fn probe(&mut self, probe: &Probe, profile: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), RunCaseError> {
         self.part.probes.push(*probe);
         self.part.profiles.extend_from_slice(profile);
         self.part.bonds.extend_from_slice(bonds);
         Ok(())
     }
 
-    fn snapshot(&mut self, moment: &Moment) -> Result<(), RecordError> {
-        record::write_frame(&self.folder, &self.frame(moment))
+    fn snapshot(&mut self, moment: &Moment) -> Result<(), RunCaseError> {
+        Ok(record::write_frame(&self.folder, &self.frame(moment))?)
     }
 
-    fn checkpoint(&mut self, checkpoint: &Checkpoint) -> Result<(), RecordError> {
+    fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), RunCaseError> {
         self.flush()?;
-        record::checkpoint::write(&self.folder.join(CHECKPOINT_FILE), &self.case_id, checkpoint)
+        record::checkpoint::write(&self.folder.join(CHECKPOINT_FILE), &self.case_id, checkpoint)?;
+        Ok(self.account.save(&phases(cost))?)
     }
 
     fn progress(&mut self, progress: &Progress) {
         (self.tell)(progress);
     }
+}
+
+fn phases(cost: &Cost) -> Vec<Phase> {
+    let phase = |(phase, calls, seconds): (solver::Phase, u64, f64)| Phase {
+        name: phase.name().to_owned(),
+        calls,
+        seconds,
+    };
+    cost.rows().map(phase).collect()
 }
 
 /// Cells and reference positions, x from the left edge and y from the crack plane.

@@ -1,5 +1,6 @@
 //! One case, from its checkpoint or from the start, into its folder.
 
+use std::error::Error;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
@@ -7,7 +8,8 @@ use super::recorder::{Recorder, field_mesh};
 use super::{SetupError, solver};
 use crate::plan::CaseId;
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
-use crate::solver::{Cost, Ending, Progress, RunError, Solver, SolverError};
+use crate::solver::{Ending, Progress, RunError, Solver, SolverError};
+use crate::store::{Phase, StoreError};
 use crate::study::case::Case;
 
 /// How a run ended and what it cost.
@@ -20,8 +22,8 @@ pub struct Finished {
     pub stability_limit: f64,
     /// Largest energy imbalance over the largest work; `None` before any work was done.
     pub energy_error: Option<f64>,
-    /// Of this part of the run.
-    pub cost: Cost,
+    /// Of all attempts together.
+    pub cost: Vec<Phase>,
 }
 
 /// More threads than this on every core bring a machine to a halt; it leaves room for tests of many threads.
@@ -36,6 +38,8 @@ pub enum RunCaseError {
     Physics(SolverError, String),
     #[error(transparent)]
     Record(#[from] RecordError),
+    #[error(transparent)]
+    Store(#[from] StoreError),
     #[error("cannot start {threads} threads: {why}; ask for fewer with --threads")]
     Threads { threads: u32, why: String },
 }
@@ -73,19 +77,19 @@ fn compute(
     let id = CaseId::of(case).to_string();
     let mut solver = solver(case)?;
     resume(&mut solver, into, &id, warn)?;
-    let mut recorder = Recorder::new(into, id, &solver, tell);
+    let mut recorder = Recorder::new(into, id.clone(), &solver, tell);
     let ended = solver.run(&mut recorder, stop);
     let ending = match ended {
         Ok(ending) => ending,
-        Err(RunError::Output(error)) => return Err(error.into()),
+        Err(RunError::Output(error)) => return Err(error),
         Err(RunError::Physics(error)) => {
             recorder.flush()?;
-            publish(&solver, into)?;
+            publish(&solver, into, &id)?;
             return Err(RunCaseError::Physics(error, into.display().to_string()));
         }
     };
     if ending != Ending::Interrupted {
-        publish(&solver, into)?;
+        publish(&solver, into, &id)?;
     }
     let [time_step, stability_limit] = solver.time_step();
     Ok(Finished {
@@ -94,33 +98,39 @@ fn compute(
         time_step,
         stability_limit,
         energy_error: solver.ledger().relative_error(),
-        cost: solver.cost(),
+        cost: recorder.total_cost(&solver.cost()),
     })
 }
 
 /// Goes back to the folder's checkpoint, and removes what was recorded after it.
 fn resume(solver: &mut Solver, into: &Path, id: &str, warn: &mut (dyn FnMut(&str) + Send)) -> Result<(), RunCaseError> {
     let path = into.join(CHECKPOINT_FILE);
-    match record::checkpoint::read(&path, id) {
-        Ok(checkpoint) => {
-            record::cut_back(into, Some(checkpoint.step))?;
-            solver.restore(&checkpoint).map_err(SetupError::from)?;
-            warn(&format!(
-                "going on from step {}, {:.3} ps",
-                checkpoint.step, checkpoint.time
-            ));
-        }
-        Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
-        Err(error @ RecordError::Damaged { .. }) => {
-            warn(&format!("{error}; starting afresh"));
-            record::cut_back(into, None)?;
-        }
+    let checkpoint = match record::checkpoint::read(&path, id) {
+        Ok(checkpoint) => checkpoint,
+        Err(RecordError::Absent { .. }) => return Ok(record::cut_back(into, None)?),
+        Err(error @ RecordError::Damaged { .. }) => return start_afresh(into, &error, warn),
         Err(error) => return Err(error.into()),
+    };
+    match solver.restore(&checkpoint) {
+        Ok(()) => (),
+        Err(error @ SolverError::OtherSpecimen(_)) => return start_afresh(into, &error, warn),
+        Err(error) => return Err(RunCaseError::Physics(error, into.display().to_string())),
     }
+    record::cut_back(into, Some(checkpoint.step))?;
+    warn(&format!(
+        "going on from step {}, {:.3} ps",
+        checkpoint.step, checkpoint.time
+    ));
     Ok(())
 }
 
-fn publish(solver: &Solver, into: &Path) -> Result<(), RecordError> {
-    record::publish_series(into, solver.setting())?;
-    record::publish_fields(into, &field_mesh(solver))
+/// Forgets a run whose checkpoint is of no use.
+fn start_afresh(into: &Path, why: &dyn Error, warn: &mut (dyn FnMut(&str) + Send)) -> Result<(), RunCaseError> {
+    warn(&format!("{why}; starting afresh"));
+    Ok(record::cut_back(into, None)?)
+}
+
+fn publish(solver: &Solver, into: &Path, id: &str) -> Result<(), RecordError> {
+    record::publish_series(into, id, solver.setting())?;
+    record::publish_fields(into, id, &field_mesh(solver))
 }

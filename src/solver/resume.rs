@@ -3,6 +3,7 @@
 use super::checkpoint::Checkpoint;
 use super::{Solver, SolverError, probe};
 use crate::analysis::crack::Tracker;
+use crate::lattice::triangular;
 
 impl Solver {
     /// Everything that a later run needs to go on from here.
@@ -27,8 +28,10 @@ impl Solver {
         }
     }
 
-    /// Goes back to where a checkpoint was made.
+    /// Goes back to where a checkpoint was made; one of another specimen changes nothing.
     pub fn restore(&mut self, checkpoint: &Checkpoint) -> Result<(), SolverError> {
+        self.check_is_of_this_specimen(checkpoint)
+            .map_err(SolverError::OtherSpecimen)?;
         self.step = checkpoint.step;
         self.time = checkpoint.time;
         self.time_step = checkpoint.time_step;
@@ -58,5 +61,31 @@ impl Solver {
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
         self.stop.restore(checkpoint.last_advance, checkpoint.farthest_tip);
         Ok(())
+    }
+
+    fn check_is_of_this_specimen(&self, checkpoint: &Checkpoint) -> Result<(), &'static str> {
+        let Checkpoint { position, velocity, .. } = checkpoint;
+        let nodes = self.state.nodes();
+        if position.iter().chain(velocity).any(|axis| axis.len() != nodes) {
+            return Err("it has another number of nodes");
+        }
+        let interfaces = self.forces.interface_count();
+        if checkpoint
+            .open_interfaces
+            .iter()
+            .any(|&number| number as usize >= interfaces)
+        {
+            return Err("it has other interfaces");
+        }
+        let mesh = self.mesh();
+        let exists = |&[column, row, direction]: &[i32; 3]| {
+            usize::try_from(direction).is_ok_and(|direction| direction < triangular::NEAREST.len())
+                && mesh.owner_of([column, row]).is_some()
+        };
+        if checkpoint.broken_bonds.iter().all(exists) {
+            Ok(())
+        } else {
+            Err("it has bonds of other sites")
+        }
     }
 }

@@ -8,7 +8,7 @@ use crate::state::State;
 pub enum TimeStep {
     /// This fraction of the stability limit; made shorter if the specimen stiffens.
     Auto { fraction: f64 },
-    /// ps; refused above the limit.
+    /// ps; refused above the limit, and the end of the run when the limit falls below it.
     Given(f64),
 }
 
@@ -34,11 +34,12 @@ impl TimeStep {
         }
     }
 
-    /// The time step from here on, never longer than before.
-    pub fn adapt(self, present: f64, limit: f64) -> f64 {
+    /// The time step from here on, never longer than before; `None` where a given one has become unstable.
+    pub fn adapt(self, present: f64, limit: f64) -> Option<f64> {
         match self {
-            Self::Auto { fraction } if present > NEAREST.max(fraction) * limit => fraction * limit,
-            Self::Auto { .. } | Self::Given(_) => present,
+            Self::Auto { fraction } if present > NEAREST.max(fraction) * limit => Some(fraction * limit),
+            Self::Auto { .. } => Some(present),
+            Self::Given(given) => (given <= limit).then_some(given),
         }
     }
 }
@@ -48,13 +49,15 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_given_step_above_the_limit_is_refused_and_an_automatic_one_only_shrinks() {
-        let refused = TimeStep::Given(0.2).choose(0.1);
+    fn a_given_step_is_never_above_the_limit_and_an_automatic_one_only_shrinks() {
+        let given = TimeStep::Given(0.2);
+        let refused = given.choose(0.1);
         assert_eq!(refused, Err(SolverError::StepTooLong { given: 0.2, limit: 0.1 }));
+        assert_eq!([given.adapt(0.2, 0.3), given.adapt(0.2, 0.1)], [Some(0.2), None]);
         let auto = TimeStep::Auto { fraction: 0.75 };
         assert_eq!(auto.choose(8.0), Ok(6.0));
-        assert_eq!(auto.adapt(6.0, 16.0), 6.0);
-        assert_eq!(auto.adapt(6.0, 8.0), 6.0);
-        assert_eq!(auto.adapt(6.0, 4.0), 3.0);
+        assert_eq!(auto.adapt(6.0, 16.0), Some(6.0));
+        assert_eq!(auto.adapt(6.0, 8.0), Some(6.0));
+        assert_eq!(auto.adapt(6.0, 4.0), Some(3.0));
     }
 }

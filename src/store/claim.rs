@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
 
+use super::cost::COST;
 use super::manifest::host;
 use super::{Attempt, ExitState, Failure, Manifest, Outcome, Program, Reached, State, Store, StoreError, files};
 
@@ -113,7 +114,7 @@ impl Claim {
         self.note(None)?;
         let folder = self.folder();
         // A manifest is there when a kill came just before the rename.
-        for name in [OUTCOME, SOLVER_LOCK, "attempt.json", "failure.json", MANIFEST] {
+        for name in [OUTCOME, COST, SOLVER_LOCK, "attempt.json", "failure.json", MANIFEST] {
             files::remove(&folder.join(name))?;
         }
         let manifest = Manifest {
@@ -208,7 +209,7 @@ impl FolderLock {
         loop {
             if let Some(lock) = files::try_lock(&path)? {
                 // Only solvers write these while a solver has the folder.
-                for name in [CASE, OUTCOME] {
+                for name in [CASE, OUTCOME, COST] {
                     files::remove_asides(folder, name)?;
                 }
                 return Ok(Some(FolderLock { _lock: lock }));

@@ -5,22 +5,23 @@ use std::path::{Path, PathBuf};
 use super::claim::SOLVER_LOCK;
 use super::{MARK, Store, StoreError, files};
 
-/// Something that was taken away, or left because somebody works on it.
+/// A run that nothing needs any more.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Removed {
+pub struct Leftover {
     pub path: PathBuf,
+    /// `unpublished` or `superseded`.
     pub what: &'static str,
-    /// Its size on disk, bytes.
+    /// Its size on disk.
     pub bytes: u64,
-    /// `false`: it is in use, and stays.
-    pub removed: bool,
+    /// Somebody works on it: it stays.
+    pub in_use: bool,
+    id: String,
 }
 
 impl Store {
-    /// Removes runs that were never published, published runs that are not in `current`, what points at them, and
-    /// what a killed process was just writing.
-    pub fn clean(&self, current: &BTreeSet<String>, cases: &BTreeSet<String>) -> Result<Vec<Removed>, StoreError> {
-        let mut removed = Vec::new();
+    /// Runs that were never published, and published runs that are not in `current`. Changes nothing.
+    pub fn leftovers(&self, current: &BTreeSet<String>) -> Result<Vec<Leftover>, StoreError> {
+        let mut found = Vec::new();
         for name in entries(&self.root.join("runs"))? {
             let (id, what) = match name.split_once('.') {
                 None if current.contains(&name) => continue,
@@ -29,7 +30,27 @@ impl Store {
                 Some((id, "replaced")) => (id, "superseded"),
                 Some(_) => continue,
             };
-            removed.push(self.clean_folder(&name, id, what)?);
+            let path = self.root.join("runs").join(&name);
+            found.push(Leftover {
+                what,
+                bytes: size(&path),
+                in_use: files::is_locked(&self.lock_path(id)) || files::is_locked(&path.join(SOLVER_LOCK)),
+                id: id.to_owned(),
+                path,
+            });
+        }
+        Ok(found)
+    }
+
+    /// Removes the leftovers that nobody works on, what points at them, and what a killed process was just writing.
+    pub fn clean(&self, current: &BTreeSet<String>, cases: &BTreeSet<String>) -> Result<Vec<Leftover>, StoreError> {
+        let mut leftovers = self.leftovers(current)?;
+        for leftover in &mut leftovers {
+            let lock = files::try_lock(&self.lock_path(&leftover.id))?;
+            leftover.in_use = lock.is_none() || files::is_locked(&leftover.path.join(SOLVER_LOCK));
+            if !leftover.in_use {
+                files::remove(&leftover.path)?;
+            }
         }
         for name in entries(&self.root.join("cases"))? {
             let link = self.case_link(&name);
@@ -40,23 +61,7 @@ impl Store {
         if self.root.exists() {
             files::remove_asides(&self.root, MARK)?;
         }
-        Ok(removed)
-    }
-
-    fn clean_folder(&self, name: &str, id: &str, what: &'static str) -> Result<Removed, StoreError> {
-        let path = self.root.join("runs").join(name);
-        let bytes = size(&path);
-        let lock = files::try_lock(&self.lock_path(id))?;
-        let free = lock.is_some() && !files::is_locked(&path.join(SOLVER_LOCK));
-        if free {
-            files::remove(&path)?;
-        }
-        Ok(Removed {
-            path,
-            what,
-            bytes,
-            removed: free,
-        })
+        Ok(leftovers)
     }
 }
 

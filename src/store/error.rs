@@ -17,6 +17,11 @@ pub enum StoreError {
 }
 
 impl StoreError {
+    /// Whether it lies in what is there already and cannot be used, and not in what is to be written.
+    pub fn is_of_the_input(&self) -> bool {
+        matches!(self, StoreError::Read { .. } | StoreError::Format { .. })
+    }
+
     pub(super) fn write(path: &Path) -> impl FnOnce(io::Error) -> StoreError + '_ {
         move |source| StoreError::Write {
             path: path.to_owned(),

@@ -50,7 +50,7 @@ pub struct Outcome {
     pub stability_limit_ps: f64,
     /// Largest energy imbalance over the largest work; `None` where nothing has done work.
     pub energy_error_relative: Option<f64>,
-    /// Where the time went.
+    /// Where the time of all attempts went.
     pub cost: Vec<Phase>,
 }
 

@@ -32,7 +32,9 @@ pub struct StudyFile {
     pub cases: Given<Named<CaseFile>>,
     /// Multiplies every case: a dotted path such as `resolution.element` and its values.
     pub sweep: Given<Sweep>,
-    /// Reference tables to compare with, by quantity; kept with the study, and not read in this version.
+    /// Tables to compare with, each by a name of its own: CSV files in the folder of the study. A column `case` names
+    /// cases; the others are named as in the table `summary` (`k_ic_near_tip_mpa_sqrt_m`), or are `wave`, `path` and
+    /// `reference_ps` as in `wave_arrival`. Lines that begin with `#` are comments.
     pub compare: Given<Named<String>>,
     pub report: Given<Report>,
 }

@@ -1,4 +1,4 @@
-//! Finding the text of a study: a file here, or a study that came with the program.
+//! Finding the text of a study and of the files that it names: files here, or what came with the program.
 
 use super::finding::Finding;
 use std::{
@@ -7,18 +7,50 @@ use std::{
     path::Path,
 };
 
-/// Studies that are part of the program, by file name.
-pub const SHIPPED: [(&str, &str); 1] = [("quickstart.yaml", include_str!("../../studies/quickstart.yaml"))];
+/// A study that is part of the program.
+#[derive(Debug)]
+pub struct Shipped {
+    /// Name of its file.
+    pub name: &'static str,
+    pub text: &'static str,
+    /// The tables that its `compare` names, and their texts.
+    pub tables: &'static [(&'static str, &'static str)],
+}
+
+pub static SHIPPED: [Shipped; 1] = [Shipped {
+    name: "quickstart.yaml",
+    text: include_str!("../../studies/quickstart.yaml"),
+    tables: &[],
+}];
 
 /// Largest file that is read, in bytes; a study of a thousand cases is a hundredth of it.
 const LARGEST: u64 = 1_000_000;
 
-/// The text of a study file, or of the shipped study of that name where there is no such file.
-pub fn text(path: &str) -> Result<String, Finding> {
+/// The text of a study file, or the shipped study of that name where there is no such file.
+pub fn text(path: &str) -> Result<(String, Option<&'static Shipped>), Finding> {
     match File::open(path) {
-        Ok(file) => read(file, path),
-        Err(error) if error.kind() == ErrorKind::NotFound => shipped(path),
+        Ok(file) => read(file, path).map(|text| (text, None)),
+        Err(error) if error.kind() == ErrorKind::NotFound => {
+            shipped(path).map(|shipped| (shipped.text.into(), Some(shipped)))
+        }
         Err(error) => Err(unreadable(&error)),
+    }
+}
+
+/// The text of a file that a study names, in the folder of the study; the error tells what is wrong with it.
+pub fn beside(study: &str, shipped: Option<&Shipped>, name: &str) -> Result<String, String> {
+    if let Some(shipped) = shipped {
+        let found = shipped.tables.iter().find(|(table, _)| *table == name);
+        return found
+            .map(|(_, text)| (*text).to_owned())
+            .ok_or_else(|| format!("{name} does not come with this study"));
+    }
+    let path = Path::new(study).parent().unwrap_or(Path::new("")).join(name);
+    let mut text = String::new();
+    match File::open(&path).and_then(|file| file.take(LARGEST + 1).read_to_string(&mut text)) {
+        Ok(bytes) if bytes as u64 > LARGEST => Err(format!("{name} is larger than 1 MB")),
+        Ok(_) => Ok(text),
+        Err(error) => Err(format!("{name} cannot be read: {error}")),
     }
 }
 
@@ -46,14 +78,14 @@ fn read(file: File, path: &str) -> Result<String, Finding> {
     })
 }
 
-fn shipped(path: &str) -> Result<String, Finding> {
+fn shipped(path: &str) -> Result<&'static Shipped, Finding> {
     let parent = Path::new(path).parent().unwrap_or(Path::new(""));
     let name = Path::new(path).file_name().and_then(|name| name.to_str()).unwrap_or("");
-    let found = SHIPPED.iter().find(|(shipped, _)| *shipped == name);
+    let found = SHIPPED.iter().find(|shipped| shipped.name == name);
     match found.filter(|_| parent == Path::new("") || parent == Path::new("studies")) {
-        Some((_, text)) => Ok((*text).into()),
+        Some(shipped) => Ok(shipped),
         None => {
-            let names = SHIPPED.map(|(name, _)| name).join(", ");
+            let names = SHIPPED.each_ref().map(|shipped| shipped.name).join(", ");
             Err(
                 Finding::whole("there is no such file, and no shipped study of that name").help(format!(
                     "shipped studies: {names}; `cgaft new NAME` writes a study to start from"

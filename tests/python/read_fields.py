@@ -3,6 +3,7 @@
 import json
 import sys
 
+import h5py
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOHDF import vtkHDFReader
 
@@ -40,7 +41,9 @@ def main(path):
                 "field_data": arrays(grid.GetFieldData()),
             }
         )
-    json.dump({"times": list(times), "steps": steps}, sys.stdout)
+    with h5py.File(path, "r") as file:
+        attributes = dict(file.attrs)
+    json.dump({"attributes": attributes, "times": list(times), "steps": steps}, sys.stdout)
 
 
 main(sys.argv[1])

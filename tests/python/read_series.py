@@ -1,4 +1,4 @@
-"""Prints every dataset that h5py finds in a series file, with its units, as JSON; NaN as null."""
+"""Prints every dataset that h5py finds in a series file, with its units, and the attributes of its root, as JSON; NaN as null."""
 
 import json
 import sys
@@ -21,6 +21,7 @@ def main(path):
 
     with h5py.File(path, "r") as file:
         file.visititems(visit)
+        datasets["/"] = dict(file.attrs)
     json.dump(datasets, sys.stdout)
 
 

@@ -14,7 +14,6 @@ done
 holds() { grep -qF -- "$1" "$case_file"; }
 
 echo "$(basename "$into") threads=$threads" >>"$into/../../starts.txt"
-echo "a word that is no progress"
 echo '{"step": 40, "of": 100, "time_ps": 0.5, "strain": 0.004, "tip_nm": 12.5, "percent": 40}'
 if holds "${FAKE_FAIL:-fake: fail}"; then
     i=1
@@ -24,6 +23,7 @@ if holds "${FAKE_FAIL:-fake: fail}"; then
     done
     exit 4
 fi
+echo "a word that is no progress"
 if holds "${FAKE_SLOW:-fake: slow}"; then
     [ -e "$into/checkpoint.h5" ] && echo "resumed" >&2
     cat >/dev/null

@@ -1,5 +1,8 @@
 //! Reports of a made-up study of three meshes, and of studies in which things went wrong.
 
+mod beside;
+mod verdict;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
@@ -115,6 +118,7 @@ fn three_meshes() -> Study {
         title: Some("Three meshes, one crack".to_owned()),
         question: Some("How much does a crack notice that the far field is coarse?".to_owned()),
         text: "study: quickstart\nquestion: How much does a crack notice that the far field is coarse?\n".to_owned(),
+        comparisons: Vec::new(),
         cases: vec![
             finished("coarse", 10, 3_300, 0.0242, 1.9),
             finished("mixed", 1, 11_800, 0.0182, 7.4),
@@ -368,4 +372,28 @@ fn every_figure_has_a_name_a_description_and_units() {
         );
     }
     assert_eq!(figures.keys().filter(|name| name.ends_with(".png")).count(), 3);
+}
+
+#[test]
+fn figures_of_cases_that_are_gone_go_too() {
+    let folder = written(&three_meshes());
+    let own = folder.path().join("figures/of-mine.svg");
+    fs::write(&own, "drawn by hand").unwrap();
+    let mut study = three_meshes();
+    study.cases.truncate(1);
+    report::write(&study, folder.path()).unwrap();
+    assert!(own.exists());
+    fs::remove_file(own).unwrap();
+    let fresh = written(&study);
+    assert!(files(folder.path()) == files(fresh.path()));
+}
+
+#[cfg(feature = "parquet")]
+#[test]
+fn every_table_is_there_as_parquet_too() {
+    let tables = files(&written(&three_meshes()).path().join("tables"));
+    for (table, _) in COLUMNS {
+        let bytes = &tables[&format!("{table}.parquet")];
+        assert!(bytes.starts_with(b"PAR1") && bytes.ends_with(b"PAR1"), "{table}");
+    }
 }

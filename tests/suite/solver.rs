@@ -11,7 +11,7 @@ use cgaft::material::Material;
 use cgaft::mesh::Mesh;
 use cgaft::potential::AtCutoff;
 use cgaft::solver::checkpoint::Checkpoint;
-use cgaft::solver::{Ending, Moment, Observer, Progress, Settings, Solver, SolverError, TimeStep, Until};
+use cgaft::solver::{Cost, Ending, Moment, Observer, Progress, Settings, Solver, SolverError, TimeStep, Until};
 
 use super::specimens::{all_meshes, lennard_jones, nearest_neighbours, slab};
 
@@ -35,7 +35,7 @@ impl Observer for Keeper {
         self.snapshots.push(moment.step);
         Ok(())
     }
-    fn checkpoint(&mut self, checkpoint: &Checkpoint) -> Result<(), Infallible> {
+    fn checkpoint(&mut self, checkpoint: &Checkpoint, _: &Cost) -> Result<(), Infallible> {
         self.checkpoints.push(checkpoint.clone());
         Ok(())
     }
@@ -237,8 +237,8 @@ fn a_run_from_a_checkpoint_ends_with_the_same_bits() {
                 fn snapshot(&mut self, moment: &Moment) -> Result<(), Infallible> {
                     self.0.snapshot(moment)
                 }
-                fn checkpoint(&mut self, checkpoint: &Checkpoint) -> Result<(), Infallible> {
-                    self.0.checkpoint(checkpoint)
+                fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), Infallible> {
+                    self.0.checkpoint(checkpoint, cost)
                 }
                 fn progress(&mut self, _: &Progress) {}
             }
@@ -260,6 +260,32 @@ fn a_run_from_a_checkpoint_ends_with_the_same_bits() {
             assert_eq!(kept.bonds, whole_kept.bonds, "{name}");
             assert_eq!(kept.snapshots, whole_kept.snapshots, "{name}");
         }
+    }
+}
+
+#[test]
+fn a_checkpoint_of_another_specimen_is_refused_and_changes_nothing() {
+    let material = nearest_neighbours();
+    let mut solvers = all_meshes(material.spacing)
+        .into_iter()
+        .map(|(_, mesh)| solver(mesh, material, settings(0.08)));
+    let mut own_solver = solvers.next().unwrap();
+    let own = own_solver.checkpoint();
+    let nodes = |checkpoint: &Checkpoint| checkpoint.position[0].len();
+    let foreign = solvers
+        .map(|other| other.checkpoint())
+        .find(|other| nodes(other) != nodes(&own));
+    let foreign = foreign.expect("meshes of different size");
+    let mut interfaces = own.clone();
+    interfaces.open_interfaces = vec![u32::MAX];
+    let mut bonds = own.clone();
+    bonds.broken_bonds = vec![[i32::MAX, i32::MAX, 0]];
+    let mut shorter = own.clone();
+    shorter.velocity[1].pop();
+    for checkpoint in [foreign, interfaces, bonds, shorter] {
+        let refused = own_solver.restore(&checkpoint);
+        assert!(matches!(refused, Err(SolverError::OtherSpecimen(_))), "{refused:?}");
+        assert!(own_solver.checkpoint() == own);
     }
 }
 

@@ -4,7 +4,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::time::Duration;
 
-use cgaft::store::{FolderLock, Outcome, Reached, State, Store, StoreError};
+use cgaft::store::{Account, FolderLock, Leftover, Outcome, Phase, Reached, State, Store, StoreError};
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -209,12 +209,17 @@ fn clean_takes_what_is_not_needed_and_leaves_what_is() {
         store.claim(id).unwrap().unwrap().begin("case: A\n", false).unwrap();
     }
     let _at_work = store.claim("4c").unwrap().unwrap();
-    let removed = store.clean(&set(&["1f", "3d", "4c"]), &set(&["A"])).unwrap();
-    let told: Vec<_> = removed.iter().map(|entry| (entry.what, entry.removed)).collect();
-    assert_eq!(
-        told,
-        [("superseded", true), ("unpublished", true), ("unpublished", false)]
-    );
+    let told = |leftovers: &[Leftover]| -> Vec<_> {
+        leftovers
+            .iter()
+            .map(|leftover| (leftover.what, leftover.in_use))
+            .collect()
+    };
+    let expected = [("superseded", false), ("unpublished", false), ("unpublished", true)];
+    let current = set(&["1f", "3d", "4c"]);
+    assert_eq!(told(&store.leftovers(&current).unwrap()), expected);
+    assert!(matches!(store.state("2e"), State::Done(_)), "looking removes nothing");
+    assert_eq!(told(&store.clean(&current, &set(&["A"])).unwrap()), expected);
     assert!(matches!(store.state("1f"), State::Done(_)));
     assert_eq!([store.state("2e"), store.state("3d")], [State::Missing, State::Missing]);
     assert!(
@@ -225,6 +230,29 @@ fn clean_takes_what_is_not_needed_and_leaves_what_is() {
         [store.linked("A").as_deref(), store.linked("old").as_deref()],
         [Some("1f"), None]
     );
+}
+
+#[test]
+fn an_account_adds_up_what_the_attempts_cost() {
+    let folder = tempfile::tempdir().unwrap();
+    let phase = |name: &str, calls, seconds| Phase {
+        name: name.to_owned(),
+        calls,
+        seconds,
+    };
+    let first = Account::open(folder.path());
+    first.save(&[phase("forces", 10, 1.0)]).unwrap();
+    // The same attempt, further on.
+    first
+        .save(&[phase("forces", 40, 4.0), phase("output", 1, 0.5)])
+        .unwrap();
+    let second = Account::open(folder.path());
+    assert_eq!(
+        second.total(&[phase("forces", 2, 0.25)]),
+        [phase("forces", 42, 4.25), phase("output", 1, 0.5)]
+    );
+    fs::write(folder.path().join("cost.json"), "{").unwrap();
+    assert_eq!(Account::open(folder.path()).total(&[]), []);
 }
 
 #[test]

@@ -18,11 +18,12 @@ const FLOORS: [&[&str]; 10] = [
 ];
 
 /// What stands for a crate or a system service in the text of a source file, and the modules that may use it.
-const OWNERS: [(&str, &[&str]); 9] = [
+const OWNERS: [(&str, &[&str]); 10] = [
     ("polars", &["report"]),
     ("plotters", &["report"]),
     ("hdf5::", &["record"]),
     ("serde_saphyr", &["study"]),
+    ("csv::", &["plan"]),
     ("Command::new(", &["executor"]),
     ("remove_dir", &["store"]),
     ("fs::rename", &["store", "record"]),

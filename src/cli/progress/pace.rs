@@ -16,14 +16,14 @@ impl Pace {
         }
     }
 
-    /// Seconds until the end; `None` before there is anything to judge by.
+    /// Seconds until the end; `None` before there is anything to judge by, and at the end.
     pub fn seconds_left(&self, percent: f64) -> Option<f64> {
         remaining(self.start.elapsed().as_secs_f64(), percent - self.from, 100.0 - percent)
     }
 }
 
 fn remaining(elapsed: f64, gained: f64, missing: f64) -> Option<f64> {
-    (gained > 0.0 && elapsed > 0.0).then(|| elapsed * missing.max(0.0) / gained)
+    (gained > 0.0 && elapsed > 0.0 && missing > 0.0).then(|| elapsed * missing / gained)
 }
 
 #[cfg(test)]
@@ -34,5 +34,6 @@ mod tests {
     fn a_resumed_case_is_judged_by_what_it_gains() {
         assert_eq!(remaining(10.0, 5.0, 50.0), Some(100.0));
         assert_eq!(remaining(10.0, 0.0, 50.0), None);
+        assert_eq!(remaining(10.0, 50.0, 0.0), None, "at the end nothing is left");
     }
 }

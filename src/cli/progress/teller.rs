@@ -11,7 +11,7 @@ use crate::executor::Progress;
 /// How `cgaft-solve` tells how far it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum Style {
-    /// One JSON object a line on standard output
+    /// One JSON object a line on standard output, and now and then a plain line on standard error
     Json,
     /// A progress bar on standard error
     Bar,
@@ -23,6 +23,8 @@ pub enum Style {
 const JSON_EVERY: Duration = Duration::from_millis(200);
 const BAR_EVERY: Duration = Duration::from_millis(100);
 const LINE_EVERY: Duration = Duration::from_secs(5);
+/// In a log that someone reads afterwards.
+const LOG_EVERY: Duration = Duration::from_secs(60);
 
 /// What the solver calls as often as it likes.
 pub fn teller(style: Option<Style>, name: &str) -> Box<dyn FnMut(&Progress) + Send> {
@@ -32,11 +34,18 @@ pub fn teller(style: Option<Style>, name: &str) -> Box<dyn FnMut(&Progress) + Se
         Style::Lines
     };
     match style.unwrap_or(fitting) {
-        Style::Json => throttled(JSON_EVERY, |progress, _| {
-            let line = serde_json::to_string(progress).expect("progress has a JSON form");
-            // If nobody listens any more, the closed pipe on the other side says so.
-            let _ = writeln!(stdout().lock(), "{line}");
-        }),
+        Style::Json => {
+            let mut speak = throttled(JSON_EVERY, |progress, _| {
+                let line = serde_json::to_string(progress).expect("progress has a JSON form");
+                // If nobody listens any more, the closed pipe on the other side says so.
+                let _ = writeln!(stdout().lock(), "{line}");
+            });
+            let mut log = throttled(LOG_EVERY, log_line);
+            Box::new(move |progress| {
+                speak(progress);
+                log(progress);
+            })
+        }
         Style::Bar => {
             let bar = new_bar(name);
             throttled(BAR_EVERY, move |progress, pace| {
@@ -44,14 +53,16 @@ pub fn teller(style: Option<Style>, name: &str) -> Box<dyn FnMut(&Progress) + Se
                 bar.set_message(progress_words(progress, pace));
             })
         }
-        Style::Lines => throttled(LINE_EVERY, |progress, pace| {
-            warn(&format!(
-                "{:.0} %  {}",
-                progress.percent,
-                progress_words(progress, pace)
-            ));
-        }),
+        Style::Lines => throttled(LINE_EVERY, log_line),
     }
+}
+
+fn log_line(progress: &Progress, pace: &Pace) {
+    warn(&format!(
+        "{:.0} %  {}",
+        progress.percent,
+        progress_words(progress, pace)
+    ));
 }
 
 /// Lets the first message through, then one every so often, and at the end the last that was held back, so that

@@ -18,7 +18,8 @@ pub fn gather(survey: &Survey) -> Study {
         name: survey.plan.study.clone(),
         title: survey.plan.title.clone(),
         question: survey.plan.question.clone(),
-        text: survey.plan.source.clone(),
+        text: survey.plan.source().to_owned(),
+        comparisons: survey.plan.comparisons.clone(),
         cases: survey.entries.iter().map(|entry| case_result(survey, entry)).collect(),
     }
 }

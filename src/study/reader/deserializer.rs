@@ -193,7 +193,11 @@ impl<'de> Deserializer<'de> for Reader<'de> {
             alternatives(&named(variants)),
             shortened(name)
         );
-        Err(Fault::new(key.place, message).help(suggestion(name, &named(variants))))
+        let help = match named(variants).as_slice() {
+            [only] => format!("write `{only}`: this version has nothing else here"),
+            several => suggestion(name, several),
+        };
+        Err(Fault::new(key.place, message).help(help))
     }
 
     fn deserialize_identifier<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {

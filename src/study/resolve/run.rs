@@ -12,6 +12,7 @@ use crate::study::{
     quantity::{Fraction, Time},
     reader::Given,
 };
+use crate::units::{self, Dimension};
 
 /// Stop conditions that speak of the crack, and where they were given.
 #[derive(Clone, Copy)]
@@ -19,6 +20,9 @@ pub struct CrackStops {
     crack_length: Option<At<f64>>,
     arrest: Option<At<f64>>,
 }
+
+/// Nominal strain beyond which nothing holds together.
+const MOST_STRAIN: f64 = 1.0;
 
 impl Check<'_> {
     pub fn loading(&self, given: &Given<file::Loading>, case: Place) -> Option<Loading> {
@@ -144,6 +148,15 @@ impl Check<'_> {
         let arrest = self.size_if_given(&values.arrest, "until.arrest");
         let (strain, time, crack_length, arrest) = (strain?, time?, crack_length?, arrest?);
         strain.or(time)?;
+        if let Some((strain, place)) = strain
+            && strain > MOST_STRAIN
+        {
+            let message = format!(
+                "a strain of {} more than doubles the specimen, and no bond bears that",
+                units::format(strain, Dimension::Fraction)
+            );
+            self.add(Finding::at(place, message).help("write for example 3.5 %"));
+        }
         let value = |at: Option<At<f64>>| at.map(|(value, _)| value);
         let until = Until {
             strain: value(strain),

@@ -226,13 +226,13 @@ fn place(text: &str, span: &Span) -> Place {
 
 fn unreadable(text: &str, error: &ScanError) -> Finding {
     let start = error.marker().byte_offset().unwrap_or(text.len()).min(text.len());
-    let line = &text[text[..start].rfind('\n').map_or(0, |at| at + 1)..];
-    let tab = line.chars().find(|c| *c != ' ') == Some('\t');
-    let help = if tab {
-        "a tab stands in the indentation of this line: indent with spaces"
-    } else {
-        "check indentation, brackets, quotes and the blank after each colon up to this place"
-    };
+    if let Some(tab) = tab_in_indentation(text, start) {
+        let place = Place {
+            start: tab,
+            end: tab + 1,
+        };
+        return Finding::at(place, "a tab stands in the indentation of this line").help("indent with spaces");
+    }
     let place = first_character(text, Place { start, end: start });
     if *error.kind() == ErrorKind::RecursionLimitExceeded {
         return too_deep(place);
@@ -241,5 +241,16 @@ fn unreadable(text: &str, error: &ScanError) -> Finding {
         let message = "this alias (`*name`) stands for nothing that came before it";
         return Finding::at(place, message).help("mark what it repeats by `&name`, or write the value out");
     }
-    Finding::at(place, format!("this is not YAML: {}", error.info())).help(help)
+    Finding::at(place, format!("this is not YAML: {}", error.info()))
+        .help("check indentation, brackets, quotes and the blank after each colon up to this place")
+}
+
+/// The tab in the indentation of the line of a place, or of the line after it, which the parser may have looked at.
+fn tab_in_indentation(text: &str, place: usize) -> Option<usize> {
+    let begin = text[..place].rfind('\n').map_or(0, |at| at + 1);
+    let next = text[place..].find('\n').map_or(text.len(), |at| place + at + 1);
+    [begin, next].into_iter().find_map(|line| {
+        let blank = text[line..].len() - text[line..].trim_start_matches([' ', '\t']).len();
+        text[line..line + blank].find('\t').map(|at| line + at)
+    })
 }

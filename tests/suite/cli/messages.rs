@@ -26,6 +26,82 @@ fn a_bad_study_is_refused_and_nothing_is_started() {
 }
 
 #[test]
+fn all_refusals_of_mesh_and_material_are_told_at_once_with_their_places() {
+    let place = Workspace::new();
+    place.write_study(&STUDY.replace(
+        "  A: {}\n",
+        "  A: {loading: {strain-rate: {rate: 9.81e11 /s}}}\n  D: {resolution: {element: 1}, specimen: {length: 20 mm}}\n",
+    ));
+    for command in ["run", "check", "plan"] {
+        let refused = place.cgaft(&["study", command, "slab.yaml"]);
+        assert_eq!(refused.code, Some(2), "{command}");
+        for told in [
+            "faster than sound",
+            "slab.yaml:17:",
+            "GiB free",
+            "slab.yaml:18:",
+            "2 mistakes",
+        ] {
+            assert!(refused.stderr.contains(told), "no `{told}` in {}", refused.stderr);
+        }
+    }
+    let json = place.cgaft(&["study", "check", "slab.yaml", "--json"]).json();
+    let mistakes = json["error"]["mistakes"].as_array().unwrap();
+    let lines: Vec<_> = mistakes.iter().map(|mistake| mistake["line"].as_u64()).collect();
+    assert_eq!(lines, [Some(17), Some(18)]);
+    assert!(!place.path("results").exists());
+    let export = place.cgaft(&["export", "lammps", "slab.yaml", "--case", "D"]);
+    assert_eq!(export.code, Some(2));
+    assert!(export.stderr.contains("slab.yaml:18:"), "{}", export.stderr);
+}
+
+#[test]
+fn results_that_this_version_cannot_read_are_an_error_of_the_input() {
+    let place = Workspace::new();
+    fs::create_dir_all(place.path("results/slab")).unwrap();
+    fs::write(place.path("results/slab/store.json"), r#"{"format": 99}"#).unwrap();
+    let refused = place.cgaft(&["study", "run", "slab.yaml"]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("format 99"), "{}", refused.stderr);
+}
+
+#[test]
+fn what_a_study_compares_with_is_read_from_its_own_folder_and_makes_a_new_report() {
+    let place = Workspace::new();
+    fs::create_dir_all(place.path("studies/reference")).unwrap();
+    fs::write(
+        place.path("studies/slab.yaml"),
+        format!("{STUDY}compare: {{start: reference/start.csv}}\n"),
+    )
+    .unwrap();
+    let refused = place.cgaft(&["study", "run", "studies/slab.yaml"]);
+    assert_eq!(refused.code, Some(2));
+    for told in ["reference/start.csv cannot be read", "studies/slab.yaml:20:"] {
+        assert!(refused.stderr.contains(told), "no `{told}` in {}", refused.stderr);
+    }
+    assert!(!place.path("results").exists());
+
+    let table = place.path("studies/reference/start.csv");
+    let shown = || {
+        place.cgaft(&["study", "run", "studies/slab.yaml"]).succeeded();
+        fs::read_to_string(place.path("results/slab/tables/comparison.csv")).unwrap()
+    };
+    for value in ["0.0321", "0.0456"] {
+        fs::write(
+            &table,
+            format!("# measured by hand\ncase,initiation_strain\nB,{value}\n"),
+        )
+        .unwrap();
+        let shown = shown();
+        assert!(
+            shown.contains(&format!("B,initiation_strain,,,{value},,reference/start.csv")),
+            "{shown}"
+        );
+    }
+    assert_eq!(place.starts().len(), 3, "a reference is no part of a case");
+}
+
+#[test]
 fn an_unknown_case_is_refused_with_the_nearest_name() {
     let place = Workspace::new();
     place.write_study(&STUDY.replace("  B:", "  branching:"));
@@ -115,7 +191,16 @@ fn there_are_no_colours_and_bars_where_there_is_no_terminal() {
 fn check_tells_size_and_cost_and_computes_nothing() {
     let place = Workspace::new();
     let check = place.cgaft(&["study", "check", "slab.yaml"]).succeeded();
-    for column in ["nodes", "elements", "atoms", "steps", "time step", "memory", "about"] {
+    for column in [
+        "nodes",
+        "elements",
+        "atoms",
+        "steps",
+        "time step",
+        "memory",
+        "disk",
+        "left over: share",
+    ] {
         assert!(check.stdout.contains(column), "{}", check.stdout);
     }
     let json = place

@@ -191,6 +191,15 @@ fn clean_says_what_it_removes_and_keeps_what_is_current() {
     let place = Workspace::new();
     place.cgaft(&["study", "run", "slab.yaml"]).succeeded();
     place.write_study(&STUDY.replace("50 nm", "51 nm"));
+    let runs = || fs::read_dir(place.path("results/slab/runs")).unwrap().count();
+    let told = place.cgaft(&["study", "clean", "slab.yaml", "--dry-run"]).succeeded();
+    assert_eq!(
+        told.stdout.matches("would remove superseded").count(),
+        1,
+        "{}",
+        told.stdout
+    );
+    assert_eq!(runs(), 3, "a dry run removes nothing");
     let cleaned = place.cgaft(&["study", "clean", "slab.yaml"]).succeeded();
     assert_eq!(
         cleaned.stdout.matches("removed superseded").count(),

@@ -18,11 +18,48 @@ fn a_time_step_above_the_limit_is_refused_before_anything_starts() {
     let place = Workspace::with(&with_time_step("220 fs"));
     for command in ["check", "run", "plan"] {
         let refused = place.cgaft(command, &[]).ended_with(2);
-        for word in ["case `mixed`", "0.22000 ps", "stability limit", "`time-step: auto`"] {
-            assert!(refused.stderr.contains(word), "{}", refused.stderr);
+        // The place in the file, the line itself, what is wrong and what to do.
+        for word in [
+            "slab.yaml:17:",
+            "time-step: 220 fs",
+            "(case mixed)",
+            "0.22000 ps",
+            "stability limit",
+            "`time-step: auto`",
+            "nothing was started",
+        ] {
+            assert!(refused.stderr.contains(word), "no `{word}` in {}", refused.stderr);
         }
     }
+    let mistake = &place.cgaft("run", &["--json"]).ended_with(2).json()["error"]["mistakes"][0];
+    assert_eq!((&mistake["file"], &mistake["line"]), (&"slab.yaml".into(), &17.into()));
     assert!(!place.path("results").exists());
+}
+
+#[test]
+fn a_solver_alone_refuses_its_case_at_the_place_in_its_file() {
+    let place = Workspace::new();
+    place.cgaft("run", &["--only", "coarse"]).succeeded();
+    let text = fs::read_to_string(place.case("coarse").join("case.yaml")).unwrap();
+    let case = place.path("case.yaml");
+    fs::write(&case, text.replace("time-step: {fraction: 0.5}", "time-step: 1 ps")).unwrap();
+    let solve = &mut place.solver(&case, &place.path("alone"), &[]);
+    let refused = Program::start(solve, &place).wait(PATIENCE).ended_with(2);
+    assert!(
+        refused.stderr.contains("case.yaml:") && refused.stderr.contains("time-step: 1 ps"),
+        "{}",
+        refused.stderr
+    );
+}
+
+#[test]
+fn a_given_time_step_that_becomes_unstable_ends_its_case_with_advice() {
+    // Just below the limit of the crystal at rest, which the breaking one undercuts.
+    let place = Workspace::with(&with_time_step("110 fs"));
+    let run = place.cgaft("run", &["--only", "mixed"]).ended_with(1);
+    for told in ["the physics failed", "step ", "no longer stable", "`time-step: auto`"] {
+        assert!(run.stderr.contains(told), "no `{told}` in {}", run.stderr);
+    }
 }
 
 #[test]
@@ -65,6 +102,12 @@ fn a_blow_up_fails_its_case_keeps_what_there_is_and_lets_the_others_run() {
     assert_eq!(
         fs::read(alone.join("series.h5")).unwrap(),
         fs::read(kept.join("series.h5")).unwrap()
+    );
+
+    let log = fs::read_to_string(kept.join("log.txt")).unwrap();
+    assert!(
+        log.contains(" %  strain ") || log.contains(" left  strain "),
+        "it does not tell how far it came: {log}"
     );
 
     // Run again, it starts over and not from the beginning of the blow-up; the others are left alone.

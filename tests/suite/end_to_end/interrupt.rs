@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use super::{PATIENCE, Program, Workspace, assert_same_results, files, restless, send, wait_for};
+use super::{PATIENCE, Program, Workspace, assert_same_results, files, restless, send, table, wait_for};
 
 /// The step that a text names behind these words.
 fn step_after(text: &str, words: &str) -> u64 {
@@ -48,6 +48,20 @@ fn an_interrupted_run_goes_on_from_its_checkpoint_and_ends_with_the_same_bits() 
     let log = fs::read_to_string(place.case("atoms").join("log.txt")).unwrap();
     assert!(step_after(&log, "going on from step ") >= told, "{log}");
     assert_same_results(&place.case("atoms"), &whole.case("atoms"));
+
+    // What it cost is that of both attempts: every step has its force.
+    let rows = table(&place.results(), "cost");
+    let forces = rows.iter().find(|row| row["phase"] == "forces").unwrap();
+    let summary = table(&place.results(), "summary");
+    let atoms = summary.iter().find(|row| row["case"] == "atoms").unwrap();
+    let steps: u64 = atoms["steps"].parse().unwrap();
+    // Interrupted at its end, an attempt repeats nothing; a checkpoint read again computes its forces once more.
+    let calls: u64 = forces["calls"].parse().unwrap();
+    assert!((steps..steps + 100).contains(&calls), "{calls} forces in {steps} steps");
+    let seconds: f64 = rows.iter().map(|row| row["seconds"].parse::<f64>().unwrap()).sum();
+    let wall: f64 = atoms["wall_s"].parse().unwrap();
+    assert!(seconds <= wall, "{seconds} s in phases, {wall} s in all");
+    assert!(!place.case("atoms").join("cost.json").exists(), "the manifest holds it");
 }
 
 #[test]

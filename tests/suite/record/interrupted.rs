@@ -90,8 +90,8 @@ fn write_pieces(dir: &Path) {
 }
 
 fn publish(dir: &Path) -> Result<(), RecordError> {
-    publish_series(dir, &setting(None))?;
-    publish_fields(dir, &mesh(1500))
+    publish_series(dir, "1f", &setting(None))?;
+    publish_fields(dir, "1f", &mesh(1500))
 }
 
 /// The published files of `dir`, which must be all there is.

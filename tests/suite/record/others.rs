@@ -37,6 +37,15 @@ fn ask_python(script: &str, file: &Path) -> Value {
     serde_json::from_slice(&output.stdout).unwrap()
 }
 
+/// What a published file says of itself.
+fn attributes() -> Value {
+    json!({
+        "case": "1f",
+        "program": concat!("cgaft ", env!("CARGO_PKG_VERSION")),
+        "units": "in the attribute `units` of each dataset",
+    })
+}
+
 #[test]
 fn vtk_reads_every_time_step_of_the_fields() {
     let dir = tempdir().unwrap();
@@ -44,11 +53,12 @@ fn vtk_reads_every_time_step_of_the_fields() {
     for step in [0, 40, 80] {
         write_frame(dir.path(), &frame(step, &mesh)).unwrap();
     }
-    publish_fields(dir.path(), &mesh).unwrap();
+    publish_fields(dir.path(), "1f", &mesh).unwrap();
     let path = dir.path().join(FIELDS_FILE);
     let seen = ask_python("read_fields.py", &path);
     let (_, frames) = read_fields(&path).unwrap();
 
+    assert_eq!(seen["attributes"], attributes());
     assert_eq!(seen["times"], json!(frames.times()));
     let points: Vec<_> = mesh.points.iter().map(|[x, y]| [*x, *y, 0.0]).collect();
     let cells: Vec<_> = mesh
@@ -111,7 +121,7 @@ fn vtk_reads_a_file_with_many_chunks() {
     for step in [0, 40, 80] {
         write_frame(dir.path(), &frame(step, &mesh)).unwrap();
     }
-    publish_fields(dir.path(), &mesh).unwrap();
+    publish_fields(dir.path(), "1f", &mesh).unwrap();
     let seen = ask_python("read_fields.py", &dir.path().join(FIELDS_FILE));
     for (index, step) in [0, 40, 80].into_iter().enumerate() {
         let written: Vec<_> = frame(step, &mesh)
@@ -131,7 +141,7 @@ fn h5py_reads_the_series_with_units() {
     let dir = tempdir().unwrap();
     let written = series(0..7, 4);
     write_segment(dir.path(), 0, &written).unwrap();
-    publish_series(dir.path(), &setting(Some(-3))).unwrap();
+    publish_series(dir.path(), "1f", &setting(Some(-3))).unwrap();
     let seen = ask_python("read_series.py", &dir.path().join(SERIES_FILE));
 
     let sigma_yy: Vec<_> = written.probes.iter().map(|probe| probe.sigma_yy).collect();
@@ -149,6 +159,7 @@ fn h5py_reads_the_series_with_units() {
     assert_eq!(seen["bonds/probe"]["values"], json!([0, 3, 6]));
     assert_eq!(seen["bonds/column"]["values"], json!([0, -3, -6]));
     assert_eq!(seen["bonds/broken"]["values"], json!([true, false, true]));
+    assert_eq!(seen["/"], attributes());
     assert_eq!(seen["setting/crack_row"], json!({"units": "1", "values": -3}));
     assert_eq!(
         seen["setting/spacing"],

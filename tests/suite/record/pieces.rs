@@ -52,7 +52,7 @@ fn a_missing_segment_is_a_gap() {
     write_segment(dir.path(), 6, &series(6..9, 4)).unwrap();
     assert!(matches!(read_segments(dir.path()), Err(RecordError::Gap { .. })));
     assert!(matches!(
-        publish_series(dir.path(), &setting(None)),
+        publish_series(dir.path(), "1f", &setting(None)),
         Err(RecordError::Gap { .. })
     ));
     assert_eq!(names(dir.path()).len(), 2);
@@ -95,7 +95,7 @@ fn cutting_back_into_a_segment_keeps_its_first_rows() {
 fn cutting_back_to_nothing_removes_everything_recorded() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
-    publish_series(dir.path(), &setting(None)).unwrap();
+    publish_series(dir.path(), "1f", &setting(None)).unwrap();
     fs::write(dir.path().join("case.yaml"), "kept").unwrap();
     cut_back(dir.path(), None).unwrap();
     assert_eq!(names(dir.path()), ["case.yaml"]);
@@ -105,7 +105,7 @@ fn cutting_back_to_nothing_removes_everything_recorded() {
 fn a_run_published_past_its_checkpoint_is_not_cut_silently() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
-    publish_series(dir.path(), &setting(None)).unwrap();
+    publish_series(dir.path(), "1f", &setting(None)).unwrap();
     cut_back(dir.path(), Some(90)).unwrap();
     assert!(matches!(cut_back(dir.path(), Some(80)), Err(RecordError::Gap { .. })));
 }
@@ -115,7 +115,7 @@ fn a_published_series_reads_back_to_the_bit() {
     for crack_row in [None, Some(-3)] {
         let dir = tempdir().unwrap();
         write_pieces(dir.path());
-        publish_series(dir.path(), &setting(crack_row)).unwrap();
+        publish_series(dir.path(), "1f", &setting(crack_row)).unwrap();
         let (read_setting, read) = read_series(&dir.path().join(SERIES_FILE)).unwrap();
         assert_eq!(read_setting, setting(crack_row));
         assert_same_series(&read, &series(0..10, 4));
@@ -126,7 +126,7 @@ fn a_published_series_reads_back_to_the_bit() {
 fn published_fields_read_back_frame_by_frame() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
-    publish_fields(dir.path(), &mesh(3)).unwrap();
+    publish_fields(dir.path(), "1f", &mesh(3)).unwrap();
     let (read_mesh, frames) = read_fields(&dir.path().join(FIELDS_FILE)).unwrap();
     assert_eq!(read_mesh, mesh(3));
     assert_eq!(frames.steps(), [0, 40, 80]);
@@ -157,8 +157,8 @@ fn publishing_leaves_only_the_published_files() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
     for _again in 0..2 {
-        publish_series(dir.path(), &setting(None)).unwrap();
-        publish_fields(dir.path(), &mesh(3)).unwrap();
+        publish_series(dir.path(), "1f", &setting(None)).unwrap();
+        publish_fields(dir.path(), "1f", &mesh(3)).unwrap();
         assert_eq!(names(dir.path()), [FIELDS_FILE, SERIES_FILE]);
     }
 }
@@ -169,8 +169,8 @@ fn publishing_is_repeatable_when_killed_while_removing_pieces() {
     for dir in [&whole, &killed] {
         write_pieces(dir.path());
     }
-    publish_series(whole.path(), &setting(None)).unwrap();
-    publish_fields(whole.path(), &mesh(3)).unwrap();
+    publish_series(whole.path(), "1f", &setting(None)).unwrap();
+    publish_fields(whole.path(), "1f", &mesh(3)).unwrap();
     // As a kill leaves it: published files in place, the first pieces gone.
     for name in [SERIES_FILE, FIELDS_FILE] {
         fs::copy(whole.path().join(name), killed.path().join(name)).unwrap();
@@ -179,8 +179,8 @@ fn publishing_is_repeatable_when_killed_while_removing_pieces() {
     fs::remove_file(killed.path().join("series-0000000000000000-0000000000000040.h5")).unwrap();
 
     cut_back(killed.path(), Some(90)).unwrap();
-    publish_series(killed.path(), &setting(None)).unwrap();
-    publish_fields(killed.path(), &mesh(3)).unwrap();
+    publish_series(killed.path(), "1f", &setting(None)).unwrap();
+    publish_fields(killed.path(), "1f", &mesh(3)).unwrap();
     assert_eq!(names(killed.path()), [FIELDS_FILE, SERIES_FILE]);
     for name in [SERIES_FILE, FIELDS_FILE] {
         assert_eq!(
@@ -194,16 +194,16 @@ fn publishing_is_repeatable_when_killed_while_removing_pieces() {
 fn pieces_newer_than_the_published_file_are_not_thrown_away() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
-    publish_series(dir.path(), &setting(None)).unwrap();
-    publish_fields(dir.path(), &mesh(3)).unwrap();
+    publish_series(dir.path(), "1f", &setting(None)).unwrap();
+    publish_fields(dir.path(), "1f", &mesh(3)).unwrap();
     write_segment(dir.path(), 10, &series(10..12, 4)).unwrap();
     write_frame(dir.path(), &frame(120, &mesh(3))).unwrap();
     assert!(matches!(
-        publish_series(dir.path(), &setting(None)),
+        publish_series(dir.path(), "1f", &setting(None)),
         Err(RecordError::Gap { .. })
     ));
     assert!(matches!(
-        publish_fields(dir.path(), &mesh(3)),
+        publish_fields(dir.path(), "1f", &mesh(3)),
         Err(RecordError::Gap { .. })
     ));
     assert_eq!(names(dir.path()).len(), 4);
@@ -212,7 +212,7 @@ fn pieces_newer_than_the_published_file_are_not_thrown_away() {
 #[test]
 fn a_run_without_frames_publishes_no_pictures() {
     let dir = tempdir().unwrap();
-    publish_fields(dir.path(), &mesh(3)).unwrap();
+    publish_fields(dir.path(), "1f", &mesh(3)).unwrap();
     assert!(matches!(
         read_fields(&dir.path().join(FIELDS_FILE)),
         Err(RecordError::Absent { .. })
@@ -224,7 +224,7 @@ fn a_frame_of_another_mesh_is_refused_and_nothing_is_lost() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
     assert!(matches!(
-        publish_fields(dir.path(), &mesh(4)),
+        publish_fields(dir.path(), "1f", &mesh(4)),
         Err(RecordError::Gap { .. })
     ));
     assert_eq!(names(dir.path()).len(), 5);
@@ -240,11 +240,11 @@ fn a_damaged_piece_is_refused_and_nothing_is_lost() {
         fs::write(&path, &whole[..whole.len() - 1]).unwrap();
     }
     assert!(matches!(
-        publish_series(dir.path(), &setting(None)),
+        publish_series(dir.path(), "1f", &setting(None)),
         Err(RecordError::Damaged { .. })
     ));
     assert!(matches!(
-        publish_fields(dir.path(), &mesh(3)),
+        publish_fields(dir.path(), "1f", &mesh(3)),
         Err(RecordError::Damaged { .. })
     ));
     assert_eq!(names(dir.path()).len(), 5);
@@ -268,8 +268,8 @@ fn equal_runs_publish_equal_bytes() {
         for step in [0, 10, 20, 30] {
             write_frame(dir.path(), &frame(step, &mesh)).unwrap();
         }
-        publish_series(dir.path(), &setting(Some(9))).unwrap();
-        publish_fields(dir.path(), &mesh).unwrap();
+        publish_series(dir.path(), "1f", &setting(Some(9))).unwrap();
+        publish_fields(dir.path(), "1f", &mesh).unwrap();
         [SERIES_FILE, FIELDS_FILE].map(|name| fs::read(dir.path().join(name)).unwrap())
     };
     let first = publish();

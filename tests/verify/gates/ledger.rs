@@ -37,7 +37,7 @@ impl Observer for Keeper {
     fn snapshot(&mut self, _: &Moment) -> Result<(), Infallible> {
         Ok(())
     }
-    fn checkpoint(&mut self, _: &Checkpoint) -> Result<(), Infallible> {
+    fn checkpoint(&mut self, _: &Checkpoint, _: &Cost) -> Result<(), Infallible> {
         Ok(())
     }
     fn progress(&mut self, _: &Progress) {}

@@ -1,0 +1,255 @@
+//! `compare`: values from elsewhere to set beside those of the cases.
+//!
+//! A CSV file with a column `case`, and columns of one table of the report. A row of a case that a sweep varies is
+//! meant for all that come of it.
+
+use super::expansion::Draft;
+use crate::study::{Finding, Findings, Place, Study, alternatives, suggestion};
+use serde::Serialize;
+
+/// A file to compare with.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Comparison {
+    /// Its key in `compare`.
+    pub name: String,
+    pub file: String,
+    /// Table of the report that has its columns.
+    pub table: &'static str,
+    pub values: Vec<Expected>,
+}
+
+/// One value of it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Expected {
+    pub case: String,
+    /// Columns that tell the rows of one case apart, and the words in them.
+    pub keys: Vec<(&'static str, String)>,
+    pub column: &'static str,
+    pub value: f64,
+}
+
+/// A table that can be compared, and its columns.
+pub struct Compared {
+    pub table: &'static str,
+    /// Columns that tell the rows of one case apart, and all the words that they may hold.
+    pub keys: &'static [(&'static str, &'static [&'static str])],
+    pub values: &'static [&'static str],
+}
+
+pub const COMPARED: [Compared; 2] = [
+    Compared {
+        table: "summary",
+        keys: &[],
+        values: &[
+            "nodes",
+            "elements",
+            "represented_atoms",
+            "steps",
+            "time_step_ps",
+            "wall_s",
+            "atom_steps_per_s",
+            "energy_error_relative",
+            "cutoff_release_ev",
+            "initiation_strain",
+            "initiation_time_ps",
+            "k_ic_near_tip_mpa_sqrt_m",
+            "k_ic_j_integral_mpa_sqrt_m",
+            "k_griffith_mpa_sqrt_m",
+            "peak_speed_over_c_r",
+            "first_branch_time_ps",
+            "first_branch_strain",
+        ],
+    },
+    Compared {
+        table: "wave_arrival",
+        keys: &[
+            ("wave", &["longitudinal", "transverse", "rayleigh"]),
+            ("path", &["left face", "top and bottom faces"]),
+        ],
+        values: &["reference_ps"],
+    },
+];
+
+/// The column that names cases.
+const CASE: &str = "case";
+
+/// Reads every file that the study compares with; what is wrong goes to `findings`.
+pub fn read(study: &Study, drafts: &[Draft], findings: &Findings) -> Vec<Comparison> {
+    if drafts.is_empty() {
+        // What is wrong with the cases has been noted; every row would only repeat it.
+        return Vec::new();
+    }
+    let named = study
+        .content
+        .compare
+        .right()
+        .map_or([].as_slice(), |compare| &compare.0);
+    let given = named
+        .iter()
+        .filter_map(|(name, file)| Some((name, file.right()?, file.place()?)));
+    let comparison = |(name, file, place): (&crate::study::Name, &String, Place)| {
+        let text = study.beside(file).map_err(|why| {
+            findings.add(Finding::at(place, why).help("name a CSV file in the folder of this study"));
+        });
+        let sheet = Sheet {
+            file,
+            place,
+            drafts,
+            findings,
+        };
+        let (table, values) = sheet.read(&text.ok()?)?;
+        Some(Comparison {
+            name: name.text.clone(),
+            file: file.clone(),
+            table: table.table,
+            values,
+        })
+    };
+    given.filter_map(comparison).collect()
+}
+
+/// A file as it is read.
+struct Sheet<'a> {
+    file: &'a str,
+    /// Where the study names it.
+    place: Place,
+    drafts: &'a [Draft],
+    findings: &'a Findings,
+}
+
+impl Sheet<'_> {
+    /// The table it speaks of and what it says; `None` where that cannot be told.
+    fn read(&self, text: &str) -> Option<(&'static Compared, Vec<Expected>)> {
+        let mut reader = csv::ReaderBuilder::new()
+            .comment(Some(b'#'))
+            .trim(csv::Trim::All)
+            .from_reader(text.as_bytes());
+        let head = self.parsed(reader.headers().cloned())?;
+        let table = self.table(&head)?;
+        let mut values = Vec::new();
+        for record in reader.records() {
+            let record = self.parsed(record)?;
+            let cells: Vec<(&str, &str)> = head.iter().zip(&record).collect();
+            self.row(
+                table,
+                &cells,
+                record.position().map_or(0, csv::Position::line),
+                &mut values,
+            );
+        }
+        Some((table, values))
+    }
+
+    fn parsed<T>(&self, record: csv::Result<T>) -> Option<T> {
+        let told = |error: csv::Error| {
+            let message = match error.kind() {
+                csv::ErrorKind::UnequalLengths {
+                    pos: Some(position),
+                    expected_len,
+                    len,
+                } => format!(
+                    "{}, line {}: {len} cells, and the head line has {expected_len}",
+                    self.file,
+                    position.line()
+                ),
+                _ => format!("{} is no CSV file: {error}", self.file),
+            };
+            self.add(
+                message,
+                "write a head line, and rows of as many cells, with a comma between them",
+            );
+        };
+        record.map_err(told).ok()
+    }
+
+    fn table(&self, head: &csv::StringRecord) -> Option<&'static Compared> {
+        if !head.iter().any(|column| column == CASE) {
+            let message = format!("{} has no column `{CASE}`", self.file);
+            self.add(
+                message,
+                "name the case of every row in it: the first line names the columns",
+            );
+            return None;
+        }
+        let has = |table: &Compared, column: &str| {
+            column == CASE || table.values.contains(&column) || table.keys.iter().any(|key| key.0 == column)
+        };
+        let fits = |table: &&Compared| {
+            head.iter().all(|column| has(table, column))
+                && head.iter().any(|column| table.values.contains(&column))
+                && table.keys.iter().all(|key| head.iter().any(|column| column == key.0))
+        };
+        if let Some(table) = COMPARED.iter().find(fits) {
+            return Some(table);
+        }
+        let unknown = head
+            .iter()
+            .find(|column| COMPARED.iter().all(|table| !has(table, column)));
+        let [summary, waves] = &COMPARED;
+        match unknown {
+            Some(column) => self.add(
+                format!("{} has a column `{column}`, which no table has", self.file),
+                suggestion(column, &[summary.values, waves.values].concat()),
+            ),
+            None => self.add(
+                format!("the columns of {} are not those of one table", self.file),
+                format!(
+                    "write columns of `{}`, or `wave`, `path` and {} of `{}`",
+                    summary.table,
+                    alternatives(waves.values),
+                    waves.table
+                ),
+            ),
+        }
+        None
+    }
+
+    fn row(&self, table: &'static Compared, cells: &[(&str, &str)], line: u64, values: &mut Vec<Expected>) {
+        let cell = |column: &str| cells.iter().find(|cell| cell.0 == column).map_or("", |cell| cell.1);
+        let wanted = cell(CASE);
+        let cases: Vec<&Draft> = self
+            .drafts
+            .iter()
+            .filter(|draft| draft.name == wanted || draft.origin == wanted)
+            .collect();
+        if cases.is_empty() {
+            let mut names: Vec<&str> = self.drafts.iter().map(|draft| draft.origin.as_str()).collect();
+            names.dedup();
+            let message = format!("{}, line {line}: the study has no case `{wanted}`", self.file);
+            self.add(
+                message,
+                format!("its cases are {}", alternatives(&names).replace(" or ", " and ")),
+            );
+            return;
+        }
+        let mut keys = Vec::new();
+        for (key, words) in table.keys {
+            if !words.contains(&cell(key)) {
+                let message = format!("{}, line {line}: `{}` is no {key}", self.file, cell(key));
+                self.add(message, suggestion(cell(key), words));
+                return;
+            }
+            keys.push((*key, cell(key).to_owned()));
+        }
+        for column in table.values.iter().copied().filter(|column| !cell(column).is_empty()) {
+            match cell(column).parse::<f64>() {
+                Ok(value) if value.is_finite() => values.extend(cases.iter().map(|case| Expected {
+                    case: case.name.clone(),
+                    keys: keys.clone(),
+                    column,
+                    value,
+                })),
+                _ => self.add(
+                    format!("{}, line {line}: `{}` is no number", self.file, cell(column)),
+                    format!(
+                        "write a plain number: the column `{column}` tells its unit; leave empty what is not known"
+                    ),
+                ),
+            }
+        }
+    }
+
+    fn add(&self, message: String, help: impl Into<String>) {
+        self.findings.add(Finding::at(self.place, message).help(help));
+    }
+}

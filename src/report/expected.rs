@@ -1,0 +1,108 @@
+//! Values from elsewhere beside those of the cases.
+
+use polars::prelude::Column;
+
+use super::numbers::{ABSENT, signed_percent, significant};
+use super::tables::{Rows, Table};
+use crate::plan::{Comparison, Expected};
+
+/// Digits of a value on the page.
+const SHOWN_DIGITS: usize = 4;
+
+/// A value of a case and the one it is compared with.
+pub struct Line<'a> {
+    /// File that the other value is from.
+    source: &'a str,
+    case: &'a str,
+    /// Column of the tables.
+    column: &'a str,
+    /// What tells it from other values of the case in that column, such as `longitudinal; left face`.
+    of: Option<String>,
+    /// `None` where the case has no such value.
+    measured: Option<f64>,
+    reference: f64,
+}
+
+impl Line<'_> {
+    /// How far the measured value is from the reference, over the reference.
+    fn difference(&self) -> Option<f64> {
+        self.measured
+            .filter(|_| self.reference != 0.0)
+            .map(|measured| measured / self.reference - 1.0)
+    }
+
+    /// Case, quantity, measured, reference, difference, as a person reads them.
+    pub fn cells(&self) -> [String; 5] {
+        let quantity = match &self.of {
+            None => self.column.to_owned(),
+            Some(of) => format!("{} ({of})", self.column),
+        };
+        let absent = || ABSENT.to_owned();
+        [
+            self.case.to_owned(),
+            quantity,
+            self.measured
+                .map_or_else(absent, |value| significant(value, SHOWN_DIGITS)),
+            significant(self.reference, SHOWN_DIGITS),
+            self.difference().map_or_else(absent, signed_percent),
+        ]
+    }
+}
+
+/// The lines of a comparison. What a wave is compared with stands beside its prediction and its measurement.
+pub fn lines<'a>(comparison: &'a Comparison, tables: &[Table]) -> Vec<Line<'a>> {
+    let table = tables.iter().find(|table| table.name == comparison.table);
+    let line = |expected: &'a Expected, column: &'a str| Line {
+        source: &comparison.file,
+        case: &expected.case,
+        column,
+        of: words(expected),
+        measured: table.and_then(|table| table.value(&expected.case, &expected.keys, column)),
+        reference: expected.value,
+    };
+    let columns = |expected: &Expected| match expected.column {
+        "reference_ps" => vec!["predicted_ps", "measured_ps"],
+        own => vec![own],
+    };
+    comparison
+        .values
+        .iter()
+        .flat_map(|expected| columns(expected).into_iter().map(move |column| line(expected, column)))
+        .collect()
+}
+
+fn words(expected: &Expected) -> Option<String> {
+    let words: Vec<&str> = expected.keys.iter().map(|(_, word)| word.as_str()).collect();
+    (!words.is_empty()).then(|| words.join("; "))
+}
+
+/// The columns of the table of all comparisons.
+pub fn columns(comparisons: &[Comparison], tables: &[Table]) -> Vec<Column> {
+    let rows = Rows(
+        comparisons
+            .iter()
+            .flat_map(|comparison| lines(comparison, tables))
+            .collect(),
+    );
+    vec![
+        rows.text("case", |line| line.case),
+        rows.text("quantity", |line| line.column),
+        rows.word("of", |line| line.of.as_deref()),
+        rows.number("measured", |line| line.measured),
+        rows.number("reference", |line| line.reference),
+        rows.number("relative_difference", Line::difference),
+        rows.text("source", |line| line.source),
+    ]
+}
+
+/// What a comparison says of a row of a table, if anything does.
+pub fn value(comparisons: &[Comparison], table: &str, case: &str, keys: &[&str]) -> Option<f64> {
+    let mut all = comparisons
+        .iter()
+        .filter(|comparison| comparison.table == table)
+        .flat_map(|comparison| &comparison.values);
+    let found = all.find(|expected| {
+        expected.case == case && expected.keys.iter().map(|key| key.1.as_str()).eq(keys.iter().copied())
+    })?;
+    Some(found.value)
+}

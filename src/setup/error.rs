@@ -1,0 +1,141 @@
+//! Why a case makes no specimen.
+
+use crate::solver::SolverError;
+use crate::study::{Refusal, Subject};
+
+/// Sound as a text, but not as physics.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{}", self.refusal())]
+pub enum SetupError {
+    /// Lengths in nm, times in ps, speeds in nm/ps.
+    NoLattice {
+        cutoff: f64,
+        minimum: f64,
+    },
+    CutoffTooLong {
+        cutoff: f64,
+        minimum: f64,
+        most: f64,
+    },
+    Endless {
+        steps: u64,
+        time_step: f64,
+    },
+    FasterThanSound {
+        speed: f64,
+        sound: f64,
+    },
+    TooSmall {
+        length: f64,
+        width: f64,
+        rows: i32,
+        triangles: i32,
+        block: u32,
+        spacing: f64,
+    },
+    /// The longer side, its atoms, and how many can be numbered.
+    TooLong {
+        side: f64,
+        is_width: bool,
+        atoms: f64,
+        most: f64,
+    },
+    ElementTooLarge {
+        element: u32,
+        rows: i32,
+    },
+    /// GiB needed, and free on this machine.
+    TooLarge {
+        sites: u64,
+        needed: f64,
+        present: f64,
+    },
+    Solver(#[from] SolverError),
+}
+
+impl SetupError {
+    /// What is wrong, and the part of the case to look at.
+    pub fn refusal(&self) -> Refusal {
+        match self {
+            Self::NoLattice { cutoff, minimum } => Refusal::new(
+                Subject::Cutoff,
+                format!("this potential has no zero-pressure lattice within its cutoff of {cutoff} nm"),
+                format!("its energy is lowest at {minimum:.4} nm: let the cutoff reach well beyond"),
+            ),
+            Self::CutoffTooLong { cutoff, minimum, most } => Refusal::new(
+                Subject::Cutoff,
+                format!(
+                    "a cutoff of {cutoff} nm is more than {most} times the distance of lowest energy, {minimum:.4} nm: \
+                     every site would have hundreds of partners"
+                ),
+                "write a shorter one",
+            ),
+            Self::Endless { steps, time_step } => Refusal::new(
+                Subject::Until,
+                format!("the run would take {:.1e} steps of {time_step:.3e} ps", *steps as f64),
+                "look at the strain rate, the mass and `until`",
+            )
+            .with(Subject::Rate, "at this rate"),
+            Self::FasterThanSound { speed, sound } => Refusal::new(
+                Subject::Rate,
+                format!("the grips would part at {speed:.3} nm/ps each, faster than sound ({sound:.3} nm/ps)"),
+                "lower the strain rate",
+            )
+            .with(Subject::Width, "of this width"),
+            Self::TooSmall {
+                length,
+                width,
+                rows,
+                triangles,
+                block,
+                spacing,
+            } => Refusal::new(
+                if *rows < 4 { Subject::Width } else { Subject::Length },
+                format!(
+                    "a specimen of {length} x {width} nm has room for {rows} rows of {triangles} triangles of {block} \
+                     atoms an edge ({spacing:.4} nm apart); it needs 4 rows (two are grips) of at least 3"
+                ),
+                "make it larger, or `block` smaller",
+            ),
+            Self::TooLong {
+                side,
+                is_width,
+                atoms,
+                most,
+            } => Refusal::new(
+                if *is_width { Subject::Width } else { Subject::Length },
+                format!("{side:.3e} nm are {atoms:.1e} atoms, and at most {most:.0e} along a side can be numbered"),
+                "make it smaller: is the unit meant so?",
+            ),
+            Self::ElementTooLarge { element, rows } => Refusal::new(
+                Subject::Element,
+                format!(
+                    "elements of {element} atoms an edge do not fit: either side of the crack plane has {rows} rows of \
+                     atoms up to the grip"
+                ),
+                format!("use {rows} or less"),
+            )
+            .with(Subject::Width, "in this width"),
+            Self::TooLarge { sites, needed, present } => Refusal::new(
+                Subject::Length,
+                format!(
+                    "a mesh of {sites} sites needs about {needed:.1} GiB and this machine has {present:.1} GiB free"
+                ),
+                "make the specimen smaller, or use larger elements",
+            )
+            .with(Subject::Element, "with these elements"),
+            Self::Solver(SolverError::StepTooLong { given, limit }) => Refusal::new(
+                Subject::TimeStep,
+                format!(
+                    "the time step {given:.5} ps is above the stability limit {limit:.5} ps of this mesh and material"
+                ),
+                "choose a smaller one, or `time-step: auto`",
+            ),
+            Self::Solver(other) => Refusal::new(
+                Subject::Cutoff,
+                other.to_string(),
+                "look at the potential and the extents of the specimen",
+            ),
+        }
+    }
+}

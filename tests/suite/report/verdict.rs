@@ -1,0 +1,45 @@
+//! The first sentence of a report says no more than is known.
+
+use cgaft::report::Study;
+
+use super::{finished, text, three_meshes, written};
+
+#[test]
+fn the_verdict_tells_that_no_crack_starts() {
+    let study = |starts: [f64; 2]| Study {
+        cases: vec![
+            finished("coarse", 10, 3_300, starts[0], 1.9),
+            finished("atoms", 1, 60_000, starts[1], 41.0),
+        ],
+        ..three_meshes()
+    };
+    let none = text(&written(&study([0.9, 0.9])), "report.html");
+    assert!(
+        none.contains(
+            "In atoms the crack does not start up to 2.80 % strain; in coarse it does not start up to 2.80 %"
+        ),
+        "{none}"
+    );
+    let one = text(&written(&study([0.02, 0.9])), "report.html");
+    assert!(
+        one.contains("In atoms the crack does not start") && one.contains("in coarse it starts at"),
+        "{one}"
+    );
+}
+
+#[test]
+fn starts_that_the_probes_cannot_tell_apart_are_not_told_apart() {
+    let study = Study {
+        cases: vec![
+            finished("mixed", 1, 11_800, 0.0180, 7.4),
+            finished("atoms", 1, 60_000, 0.0180, 41.0),
+        ],
+        ..three_meshes()
+    };
+    let page = text(&written(&study), "report.html");
+    assert!(page.contains("in mixed at the same strain, within a probe"), "{page}");
+    assert!(
+        page.contains("none within a probe (0.") && !page.contains("+0.0 %"),
+        "{page}"
+    );
+}
