@@ -2,6 +2,7 @@
 
 pub mod checkpoint;
 mod cost;
+pub mod j_integral;
 mod ledger;
 mod observe;
 mod probe;
@@ -30,6 +31,7 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::state::State;
 use checkpoint::Checkpoint;
+use j_integral::JIntegral;
 use probe::ProfileLine;
 use schedule::Schedule;
 
@@ -144,6 +146,7 @@ pub struct Solver {
     settings: Settings,
     setting: Setting,
     profile: ProfileLine,
+    j_integral: JIntegral,
     step: u64,
     time: f64,
     time_step: f64,
@@ -172,6 +175,7 @@ impl Solver {
         loading.start(&mesh, &mut state);
         let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let profile = ProfileLine::new(&mesh, &setting);
+        let j_integral = JIntegral::new(&mesh, material);
         let tracker = Tracker::new(&setting);
         let mut forces = Forces::new(mesh, material);
         forces
@@ -195,6 +199,7 @@ impl Solver {
             settings,
             setting,
             profile,
+            j_integral,
             step: 0,
             time: 0.0,
             time_step,

@@ -35,7 +35,12 @@ pub struct Probe {
     pub cutoff_release: f64,
     /// Kinetic temperature of the atomic regions, K; NaN where there are none.
     pub temperature: f64,
+    /// J-integral in each of the rings around the tip, from the innermost on, eV/nm; NaN where there are none.
+    pub j_integral: [f64; RINGS],
 }
+
+/// Rings around the tip over each of which the J-integral is taken.
+pub const RINGS: usize = 3;
 
 /// A nearest-neighbour bond of the reference lattice that broke (or closed again) between two probes.
 ///

@@ -54,6 +54,13 @@ const COLUMNS: [Column; 11] = [
     ("temperature", "K", |probe| &mut probe.temperature),
 ];
 
+/// Columns that files written before there were any do not have; not a number there.
+const LATER_COLUMNS: [Column; 3] = [
+    ("j_integral_inner", "eV/nm", |probe| &mut probe.j_integral[0]),
+    ("j_integral_middle", "eV/nm", |probe| &mut probe.j_integral[1]),
+    ("j_integral_outer", "eV/nm", |probe| &mut probe.j_integral[2]),
+];
+
 pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
     let Series {
         probes,
@@ -92,7 +99,7 @@ fn put_probes(group: &Group, probes: &[Probe]) -> hdf5::Result<()> {
     let shape = [probes.len()];
     let step: Vec<u64> = probes.iter().map(|probe| probe.step).collect();
     put(group, "step", "1", &shape, &step, Packing::Deflated)?;
-    for (name, unit, place) in COLUMNS {
+    for (name, unit, place) in COLUMNS.into_iter().chain(LATER_COLUMNS) {
         let column: Vec<f64> = probes.iter().map(|probe| *place(&mut probe.clone())).collect();
         put(group, name, unit, &shape, &column, Packing::Deflated)?;
     }
@@ -111,6 +118,15 @@ fn get_probes(group: &Group) -> hdf5::Result<Vec<Probe>> {
         .collect();
     for (name, _, place) in COLUMNS {
         for (probe, number) in probes.iter_mut().zip(get_column::<f64>(group, name, length)?) {
+            *place(probe) = number;
+        }
+    }
+    for (name, _, place) in LATER_COLUMNS {
+        let column = match group.link_exists(name) {
+            true => get_column::<f64>(group, name, length)?,
+            false => vec![f64::NAN; length],
+        };
+        for (probe, number) in probes.iter_mut().zip(column) {
             *place(probe) = number;
         }
     }

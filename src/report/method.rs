@@ -6,8 +6,11 @@ use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
 use crate::analysis::history::{ARREST_SPEED, SPUR_ELEMENTS, SPUR_SPACINGS};
 use crate::analysis::initiation::ADVANCE_SPACINGS;
+use crate::analysis::series::RINGS;
 use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
-use crate::analysis::stress_intensity::{FROM_ELEMENTS, FROM_SPACINGS, TO_SHARE};
+use crate::analysis::stress_intensity::{
+    FROM_ELEMENTS, FROM_SPACINGS, RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS, TO_SHARE,
+};
 
 /// A term and what it means here.
 pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
@@ -50,6 +53,18 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                  {FROM_SPACINGS} spacings (at least {FROM_ELEMENTS} element edges) to {} % of the crack length, the \
                  ligament or the height, whichever is smallest; ± is the standard error of the fit alone.",
                 percent(TO_SHARE)
+            ),
+        ),
+        (
+            "K of the J-integral",
+            format!(
+                "√(EJ) at the same probe, J being the energy that the field around the tip would give for its advance: \
+                 the domain integral with finite strain and inertia, in {RINGS} rings side by side that reach to at most \
+                 {RING_SPACINGS} spacings (at least {RING_ELEMENTS} element edges), and to at most {} % of the way to the nearest \
+                 edge or grip. The value is the mean of the rings, ± half of the range between them: what \
+                 waves on their way through the rings, and a mesh too coarse for them, make J depend on the ring. Absent \
+                 where there is no room for rings.",
+                percent(RING_CLEAR_SHARE)
             ),
         ),
         (

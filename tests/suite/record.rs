@@ -50,6 +50,7 @@ fn series(probes: std::ops::Range<u64>, bins: u64) -> Series {
         work: number(index + 7),
         cutoff_release: number(index + 8),
         temperature: f64::NAN,
+        j_integral: [number(index + 9), f64::NAN, number(index + 10)],
     };
     let bond = |index: u64| BondEvent {
         probe: index as u32,
