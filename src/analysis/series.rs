@@ -8,6 +8,10 @@ pub struct Series {
     pub profile_x: Vec<f64>,
     /// One profile a probe: `[sigma_xx, sigma_yy, sigma_xy]` in eV/nm^3 a bin; length `probes.len() * profile_x.len()`, probe-major.
     pub profiles: Vec<[f64; 3]>,
+    /// Where the wave gauges stand, nm from the left edge and from the crack plane.
+    pub gauge_places: Vec<[f64; 2]>,
+    /// Mean velocity x, y (nm/ps) and stress xx, yy, xy (eV/nm^3) of every gauge; probe-major as `profiles`.
+    pub gauges: Vec<[f64; 5]>,
     /// Bonds that broke or healed since the probe before, in order of time.
     pub bonds: Vec<BondEvent>,
 }

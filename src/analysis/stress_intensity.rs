@@ -22,8 +22,8 @@ pub const LEAST_BINS: usize = 3;
 
 /// The largest radius of the rings of the J-integral in spacings, and in edges of the elements at the crack: what is
 /// larger costs more and tells the same.
-pub const RING_SPACINGS: f64 = 40.0;
-pub const RING_ELEMENTS: f64 = 8.0;
+pub const RING_SPACINGS: f64 = 30.0;
+pub const RING_ELEMENTS: f64 = 6.0;
 
 /// How much of the distance to the nearest edge or grip the rings may take.
 pub const RING_CLEAR_SHARE: f64 = 0.9;

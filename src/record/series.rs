@@ -66,6 +66,8 @@ pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
         probes,
         profile_x,
         profiles,
+        gauge_places,
+        gauges,
         bonds,
     } = series;
     put_probes(&new_group(parent, "probes")?, probes)?;
@@ -82,17 +84,54 @@ pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
         Packing::Deflated,
     )?;
 
+    let group = new_group(parent, "gauges")?;
+    let count = gauge_places.len();
+    put(
+        &group,
+        "place",
+        "nm",
+        &[count, 2],
+        gauge_places.as_flattened(),
+        Packing::Deflated,
+    )?;
+    let part = |from: usize, width: usize| -> Vec<f64> {
+        let rows = gauges.iter().flat_map(|row| &row[from..from + width]);
+        rows.copied().collect()
+    };
+    let shape = |width: usize| [probes.len(), count, width];
+    put(&group, "velocity", "nm/ps", &shape(2), &part(0, 2), Packing::Deflated)?;
+    put(&group, "stress", "eV/nm^3", &shape(3), &part(2, 3), Packing::Deflated)?;
+
     put_bonds(&new_group(parent, "bonds")?, bonds)
 }
 
 pub(super) fn get_series(parent: &Group) -> hdf5::Result<Series> {
     let profiles = parent.group("profiles")?;
+    let (gauge_places, gauges) = get_gauges(parent)?;
     Ok(Series {
         probes: get_probes(&parent.group("probes")?)?,
         profile_x: get(&profiles, "x")?,
         profiles: get_rows(&profiles, "stress")?,
+        gauge_places,
+        gauges,
         bonds: get_bonds(&parent.group("bonds")?)?,
     })
+}
+
+/// Places and readings; none in files written before there were any.
+fn get_gauges(parent: &Group) -> hdf5::Result<(Vec<[f64; 2]>, Vec<[f64; 5]>)> {
+    if !parent.link_exists("gauges") {
+        return Ok(Default::default());
+    }
+    let group = parent.group("gauges")?;
+    let velocity: Vec<[f64; 2]> = get_rows(&group, "velocity")?;
+    let stress: Vec<[f64; 3]> = get_rows(&group, "stress")?;
+    if velocity.len() != stress.len() {
+        return Err("the gauges have not as many velocities as stresses".into());
+    }
+    let rows = velocity.iter().zip(&stress);
+    let rows = rows.map(|(v, s)| [v[0], v[1], s[0], s[1], s[2]]).collect();
+    Ok((get_rows(&group, "place")?, rows))
 }
 
 fn put_probes(group: &Group, probes: &[Probe]) -> hdf5::Result<()> {

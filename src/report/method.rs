@@ -34,8 +34,8 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Initiation",
             format!(
-                "The first probe from which on the crack stays longer than the notch by more than {ADVANCE_SPACINGS} \
-                 spacings and one element edge at the crack plane."
+                "The first probe of the uninterrupted advance that takes the tip {ADVANCE_SPACINGS} spacings and one \
+                 element edge beyond the notch, never to come back to less than {ADVANCE_SPACINGS} spacings."
             ),
         ),
         (

@@ -24,15 +24,23 @@ use crate::analysis::series::RINGS;
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::state::State;
-use cell::{BondTable, Field};
+use cell::{BondTable, Field, Nodes};
+
+/// Elements in one parallel task.
+const TASK: usize = 64;
 
 /// The bonds of a specimen's elements, for as many evaluations as wanted.
 pub struct JIntegral {
     material: Material,
     tables: Vec<BondTable>,
-    /// Elements that the last rings touched: a tip at rest keeps them.
-    touched: Option<(Rings, Vec<u32>)>,
+    /// The last rings, kept because a tip at rest keeps them.
+    rings: Option<Rings>,
+    /// Elements that the rings touch, and for every element of the mesh its place among them or `FAR`.
+    touched: Vec<u32>,
+    place: Vec<u32>,
 }
+
+const FAR: u32 = u32::MAX;
 
 impl JIntegral {
     pub fn new(mesh: &Mesh, material: Material) -> Self {
@@ -41,43 +49,55 @@ impl JIntegral {
         Self {
             tables: sizes.iter().map(|&size| BondTable::new(size, &material)).collect(),
             material,
-            touched: None,
+            rings: None,
+            touched: Vec::new(),
+            place: vec![FAR; mesh.elements.len()],
         }
     }
 
     /// J of every ring, eV/nm. The forces of the state must be those of its positions.
     pub fn evaluate(&mut self, mesh: &Mesh, state: &State, rings: Rings) -> [f64; RINGS] {
-        let (_, touched) = match self.touched.take() {
-            Some(known) if known.0 == rings => self.touched.insert(known),
-            _ => self.touched.insert((rings, touched(mesh, &rings))),
-        };
+        if self.rings != Some(rings) {
+            self.go_to(mesh, rings);
+        }
+        let touched = self.touched.par_iter().with_min_len(TASK);
+        let nodes: Vec<Nodes> = touched
+            .clone()
+            .map(|&element| cell::nodes_of(mesh, state, &rings, element as usize))
+            .collect();
         let field = Field {
             mesh,
             material: &self.material,
             tables: &self.tables,
             state,
             rings: &rings,
+            place: &self.place,
+            nodes: &nodes,
         };
-        let parts: Vec<[f64; RINGS]> = touched
-            .par_iter()
-            .map(|&element| field.contribution(element as usize))
-            .collect();
+        let parts: Vec<[f64; RINGS]> = touched.map(|&element| field.contribution(element as usize)).collect();
         // In the order of the elements, so that threads leave no trace.
         parts.into_iter().fold([0.0; RINGS], |mut sum, part| {
             (0..RINGS).for_each(|ring| sum[ring] += part[ring]);
             sum
         })
     }
-}
 
-/// Elements that may have a bond into the rings, or to an element that reaches into them.
-fn touched(mesh: &Mesh, rings: &Rings) -> Vec<u32> {
-    let largest = mesh.elements.first().map_or(0, |element| element.size);
-    let elements = (0..mesh.elements.len() as u32).into_par_iter();
-    let near = |&number: &u32| {
-        let element = &mesh.elements[number as usize];
-        let anchor = mesh.reference([element.column, element.row]);
-        rings.reach(anchor) <= f64::from(element.size + largest) * mesh.spacing
-    };
-    elements.filter(near).collect()
+    /// Finds the elements that may have a bond into the rings, or to an element that reaches into them.
+    fn go_to(&mut self, mesh: &Mesh, rings: Rings) {
+        let largest = mesh.elements.first().map_or(0, |element| element.size);
+        let elements = (0..mesh.elements.len() as u32).into_par_iter();
+        let near = |&number: &u32| {
+            let element = &mesh.elements[number as usize];
+            let anchor = mesh.reference([element.column, element.row]);
+            rings.reach(anchor) <= f64::from(element.size + largest) * mesh.spacing
+        };
+        self.touched
+            .iter()
+            .for_each(|&element| self.place[element as usize] = FAR);
+        self.touched = elements.filter(near).collect();
+        for (place, &element) in (0..).zip(&self.touched) {
+            self.place[element as usize] = place;
+        }
+        self.rings = Some(rings);
+    }
 }

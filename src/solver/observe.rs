@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::j_integral::Rings;
-use super::{Measure, Moment, Observer, Phase, Progress, RunError, Solver, probe, temperature};
+use super::{Measure, Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe, temperature};
 use crate::analysis::crack::Tracker;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 
@@ -49,7 +49,15 @@ impl Solver {
         }
         let row = self.probe_row(measure);
         let profile = self.profile.stress(measure, &self.setting);
-        observer.probe(&row, &profile, &bonds).map_err(RunError::Output)?;
+        let reading = Reading {
+            probe: &row,
+            profile: &profile,
+            gauges: &self
+                .gauges
+                .read(self.forces.mesh(), &self.state, measure, &self.setting),
+            bonds: &bonds,
+        };
+        observer.probe(&reading).map_err(RunError::Output)?;
         observer.progress(&Progress {
             step: self.step,
             of: self

@@ -201,6 +201,25 @@ fn initiation_is_the_first_lasting_advance() {
 }
 
 #[test]
+fn initiation_is_where_the_advance_begins_and_not_where_it_has_gone_far_enough() {
+    let opened = |from: f64, to: f64, probe: u32| breaks(&straight(from, to), probe);
+    // Half an edge opens early and stands; then a whole edge and more opens within twenty probes.
+    let mut bonds = opened(99.0, 106.0, 20);
+    bonds.extend((0..20).flat_map(|step| opened(106.0 + f64::from(step), 107.0 + f64::from(step), 60 + step as u32)));
+    for element_at_crack in [1, 10] {
+        let setting = Setting {
+            element_at_crack,
+            ..setting()
+        };
+        let found = analyse(&series(100, bonds.clone(), &setting), &setting)
+            .initiation
+            .unwrap();
+        let wanted = if element_at_crack == 1 { 20 } else { 60 };
+        assert_eq!(found.probe, wanted, "elements of {element_at_crack} atoms an edge");
+    }
+}
+
+#[test]
 fn a_crack_that_never_starts_has_no_initiation_and_no_speed() {
     let found = findings(breaks(&straight(99.0, 101.0), 20), 100);
     assert_eq!(found.initiation, None);
@@ -268,7 +287,7 @@ fn the_stress_intensity_of_an_exact_field_is_recovered() {
         probes: vec![Probe::default()],
         profile_x,
         profiles,
-        bonds: Vec::new(),
+        ..Series::default()
     };
     let fit = near_tip(
         &series,

@@ -66,6 +66,11 @@ fn series(probes: std::ops::Range<u64>, bins: u64) -> Series {
             .clone()
             .flat_map(|p| (0..bins).map(move |b| [number(p), number(b), number(p * b)]))
             .collect(),
+        gauge_places: vec![[1.0, 2.0], [1.0, -2.0]],
+        gauges: probes
+            .clone()
+            .flat_map(|p| (0..2).map(move |g| [0, 1, 2, 3, 4].map(|k| number(p + g * k))))
+            .collect(),
         bonds: probes.filter(|index| index % 3 == 0).map(bond).collect(),
     }
 }

@@ -170,6 +170,7 @@ pub fn crack_run(setting: &Setting, start: f64, element: f64) -> Series {
         profile_x,
         profiles,
         bonds,
+        ..Series::default()
     }
 }
 

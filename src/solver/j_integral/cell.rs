@@ -86,16 +86,43 @@ pub(super) struct Field<'a> {
     pub tables: &'a [BondTable],
     pub state: &'a State,
     pub rings: &'a Rings,
+    /// Where an element's nodes are among those gathered.
+    pub place: &'a [u32],
+    pub nodes: &'a [Nodes],
 }
 
 /// Place, velocity and q of the rings at a node or a site; or their differences along a bond.
 type Point = [f64; 4 + RINGS];
 
+/// The nodes of an element; an atom's only one three times.
+pub(super) type Nodes = [Point; 3];
+
+/// Gathers the nodes of an element.
+pub(super) fn nodes_of(mesh: &Mesh, state: &State, rings: &Rings, number: usize) -> Nodes {
+    let element = &mesh.elements[number];
+    let first = mesh.first_node(number);
+    let node = |node: usize, site: [i32; 2]| {
+        let mut point = [0.0; 4 + RINGS];
+        for axis in 0..2 {
+            point[axis] = state.position[axis][node];
+            point[2 + axis] = state.velocity[axis][node];
+        }
+        point[4..].copy_from_slice(&rings.weights(mesh.reference(site)));
+        point
+    };
+    if element.is_atom() {
+        return [node(first, element.site([0, 0])); 3];
+    }
+    let last = element.size - 1;
+    let corners = [[0, 0], [last, 0], [0, last]];
+    [0, 1, 2].map(|k| node(first + k, element.site(corners[k])))
+}
+
 impl Field<'_> {
     pub(super) fn contribution(&self, number: usize) -> [f64; RINGS] {
         let element = &self.mesh.elements[number];
-        let nodes = self.nodes(number);
-        let cell = self.cell(number, element, &nodes);
+        let nodes = &self.nodes[self.place[number] as usize];
+        let cell = self.cell(element, nodes);
         let Some(gradient) = cell.gradient() else {
             return [0.0; RINGS];
         };
@@ -123,7 +150,7 @@ impl Field<'_> {
         sum
     }
 
-    fn cell(&self, number: usize, element: &Element, nodes: &[Point; 3]) -> Cell {
+    fn cell(&self, element: &Element, nodes: &Nodes) -> Cell {
         let size = element.size;
         let table = self.tables.iter().find(|table| table.size == size);
         let table = table.expect("every size has its table");
@@ -142,50 +169,35 @@ impl Field<'_> {
             if self.mesh.severed(site, other_site) {
                 continue;
             }
-            debug_assert_ne!(other, number);
             let far = &self.mesh.elements[other];
-            let ends = [
-                interpolate(nodes, size, *local),
-                interpolate(&self.nodes(other), far.size, far.local(other_site)),
-            ];
+            let gathered = self.nodes.get(self.place[other] as usize);
+            let far_end = match gathered {
+                Some(nodes) => interpolate(nodes, far.size, far.local(other_site)),
+                None => {
+                    let nodes = nodes_of(self.mesh, self.state, self.rings, other);
+                    interpolate(&nodes, far.size, far.local(other_site))
+                }
+            };
+            let ends = [interpolate(nodes, size, *local), far_end];
             cell.add(self.material, arm, sign, 0.5, &ends);
         }
         cell
-    }
-
-    /// The nodes of an element; an atom's only one three times.
-    fn nodes(&self, number: usize) -> [Point; 3] {
-        let element = &self.mesh.elements[number];
-        let first = self.mesh.first_node(number);
-        let last = element.size - 1;
-        if element.is_atom() {
-            return [self.node(first, element.site([0, 0])); 3];
-        }
-        let corners = [[0, 0], [last, 0], [0, last]];
-        [0, 1, 2].map(|k| self.node(first + k, element.site(corners[k])))
-    }
-
-    #[inline(always)]
-    fn node(&self, node: usize, site: [i32; 2]) -> Point {
-        let mut point = [0.0; 4 + RINGS];
-        for axis in 0..2 {
-            point[axis] = self.state.position[axis][node];
-            point[2 + axis] = self.state.velocity[axis][node];
-        }
-        point[4..].copy_from_slice(&self.rings.weights(self.mesh.reference(site)));
-        point
     }
 }
 
 /// Linear between the nodes of an element, as its sites are.
 #[inline(always)]
-fn interpolate(nodes: &[Point; 3], size: i32, local: [i32; 2]) -> Point {
+fn interpolate(nodes: &Nodes, size: i32, local: [i32; 2]) -> Point {
     if size == 1 {
         return nodes[0];
     }
     let edge = 1.0 / f64::from(size - 1);
     let [p, q] = local.map(|along| f64::from(along) * edge);
-    std::array::from_fn(|k| nodes[0][k] + p * (nodes[1][k] - nodes[0][k]) + q * (nodes[2][k] - nodes[0][k]))
+    let mut point = nodes[0];
+    for k in 0..point.len() {
+        point[k] += p * (nodes[1][k] - nodes[0][k]) + q * (nodes[2][k] - nodes[0][k]);
+    }
+    point
 }
 
 /// The sums over the bonds of one element.
@@ -205,7 +217,8 @@ impl Cell {
     #[inline(always)]
     fn add(&mut self, material: &Material, arm: &Arm, sign: f64, share: f64, [start, end]: &[Point; 2]) {
         let b = [sign * arm.vector[0], sign * arm.vector[1]];
-        let mut change: Point = std::array::from_fn(|k| end[k] - start[k]);
+        let mut change = *end;
+        (0..change.len()).for_each(|k| change[k] -= start[k]);
         let d = [change[0], change[1]];
         let squared = d[0] * d[0] + d[1] * d[1];
         if squared >= arm.broken {
@@ -239,7 +252,10 @@ impl Cell {
         if determinant <= LEAST * (xx + yy) * (xx + yy) {
             return None;
         }
-        let solve = |[x, y]: [f64; 2]| [(yy * x - xy * y) / determinant, (xx * y - xy * x) / determinant];
-        Some(self.change.map(solve))
+        let mut gradient = self.change;
+        for [x, y] in &mut gradient {
+            [*x, *y] = [(yy * *x - xy * *y) / determinant, (xx * *y - xy * *x) / determinant];
+        }
+        Some(gradient)
     }
 }

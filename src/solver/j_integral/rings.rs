@@ -13,7 +13,8 @@ const BOUNDS: [f64; RINGS + 1] = [0.4, 0.6, 0.8, 1.0];
 pub struct Rings {
     /// Lattice coordinates, nm.
     tip: [f64; 2],
-    bounds: [f64; RINGS + 1],
+    /// Squares of the radii at which the rings meet, nm^2.
+    squared: [f64; RINGS + 1],
 }
 
 impl Rings {
@@ -21,7 +22,7 @@ impl Rings {
     pub fn within(radius: f64, tip: [f64; 2]) -> Self {
         Self {
             tip,
-            bounds: BOUNDS.map(|share| share * radius),
+            squared: BOUNDS.map(|share| (share * radius).powi(2)),
         }
     }
 
@@ -39,23 +40,22 @@ impl Rings {
         let largest = setting.spacing * RING_SPACINGS.max(RING_ELEMENTS * size);
         let rings = Self::within(largest.min(RING_CLEAR_SHARE * clear), place);
         let nearest = setting.spacing * FROM_SPACINGS.max(FROM_ELEMENTS * size);
-        (rings.bounds[0] >= nearest).then_some(rings)
+        (rings.squared[0] >= nearest * nearest).then_some(rings)
     }
 
-    /// q of every ring at a reference place.
+    /// q of every ring at a reference place: linear in the square of the distance, which spares a root.
     #[inline(always)]
     pub(super) fn weights(&self, place: [f64; 2]) -> [f64; RINGS] {
-        let distance = (place[0] - self.tip[0]).hypot(place[1] - self.tip[1]);
-        let mut weights = [0.0; RINGS];
-        for ring in 0..RINGS {
-            let [inner, outer] = [self.bounds[ring], self.bounds[ring + 1]];
-            weights[ring] = ((outer - distance) / (outer - inner)).clamp(0.0, 1.0);
-        }
-        weights
+        let [x, y] = [place[0] - self.tip[0], place[1] - self.tip[1]];
+        let squared = x * x + y * y;
+        std::array::from_fn(|ring| {
+            let [inner, outer] = [self.squared[ring], self.squared[ring + 1]];
+            ((outer - squared) / (outer - inner)).clamp(0.0, 1.0)
+        })
     }
 
     /// How far a place lies outside the rings; negative inside.
     pub(super) fn reach(&self, place: [f64; 2]) -> f64 {
-        (place[0] - self.tip[0]).hypot(place[1] - self.tip[1]) - self.bounds[RINGS]
+        (place[0] - self.tip[0]).hypot(place[1] - self.tip[1]) - self.squared[RINGS].sqrt()
     }
 }

@@ -39,8 +39,10 @@ fn a_strip_between_fixed_grips_releases_what_it_stores_ahead_of_the_crack() {
     gate.close();
 }
 
-/// What rings of different radius may differ by, and what they may be off the energy that is stored ahead.
-const PATH: f64 = 2e-2;
+/// A crack at 0.45 of a strip five heights long still feels its ends a little.
+const RELEASED: f64 = 5e-3;
+/// The rings see the same field at rest; what is left is the curvature of the field within a triangle.
+const PATH: f64 = 1e-3;
 
 #[test]
 fn the_j_integral_in_a_strip_is_what_it_stores_ahead_whatever_the_ring() {
