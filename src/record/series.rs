@@ -107,21 +107,21 @@ pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
 
 pub(super) fn get_series(parent: &Group) -> hdf5::Result<Series> {
     let profiles = parent.group("profiles")?;
-    let (gauge_places, gauges) = get_gauges(parent)?;
-    Ok(Series {
+    let mut series = Series {
         probes: get_probes(&parent.group("probes")?)?,
         profile_x: get(&profiles, "x")?,
         profiles: get_rows(&profiles, "stress")?,
-        gauge_places,
-        gauges,
         bonds: get_bonds(&parent.group("bonds")?)?,
-    })
+        ..Series::default()
+    };
+    get_gauges(parent, &mut series)?;
+    Ok(series)
 }
 
 /// Places and readings; none in files written before there were any.
-fn get_gauges(parent: &Group) -> hdf5::Result<(Vec<[f64; 2]>, Vec<[f64; 5]>)> {
+fn get_gauges(parent: &Group, series: &mut Series) -> hdf5::Result<()> {
     if !parent.link_exists("gauges") {
-        return Ok(Default::default());
+        return Ok(());
     }
     let group = parent.group("gauges")?;
     let velocity: Vec<[f64; 2]> = get_rows(&group, "velocity")?;
@@ -130,8 +130,9 @@ fn get_gauges(parent: &Group) -> hdf5::Result<(Vec<[f64; 2]>, Vec<[f64; 5]>)> {
         return Err("the gauges have not as many velocities as stresses".into());
     }
     let rows = velocity.iter().zip(&stress);
-    let rows = rows.map(|(v, s)| [v[0], v[1], s[0], s[1], s[2]]).collect();
-    Ok((get_rows(&group, "place")?, rows))
+    series.gauges = rows.map(|(v, s)| [v[0], v[1], s[0], s[1], s[2]]).collect();
+    series.gauge_places = get_rows(&group, "place")?;
+    Ok(())
 }
 
 fn put_probes(group: &Group, probes: &[Probe]) -> hdf5::Result<()> {

@@ -6,9 +6,9 @@ use crate::forces::Measure;
 use crate::mesh::Mesh;
 use crate::state::State;
 
-/// Where gauges stand, as shares of the way from the crack plane to the grips, and from the tip of the notch to the left
-/// edge: on both sides of the crack plane.
-const SHARES: [f64; 3] = [0.25, 0.5, 0.75];
+/// Where gauges stand on the way from the crack plane to the grips, and from the tip of the notch to the left edge. Halfway,
+/// waves are plane enough, and what leaves the tip has passed before it comes back.
+const SHARE: f64 = 0.5;
 
 /// Radius of a patch, as a share of half of the height, and no less than so many element edges and spacings.
 const RADIUS_SHARE: f64 = 0.08;
@@ -32,11 +32,9 @@ impl Gauges {
         let edges = LEAST_ELEMENTS * f64::from(largest);
         let radius = (RADIUS_SHARE * half).max(setting.spacing * LEAST_SPACINGS.max(edges));
         let tip = setting.crack_length;
-        let above = SHARES.map(|share| [tip, share * half]);
-        let behind = SHARES.map(|share| [tip - share * tip, radius]);
-        let upper = above.into_iter().chain(behind);
+        let upper = [[tip, SHARE * half], [tip - SHARE * tip, radius]];
         let places: Vec<[f64; 2]> = match setting.crack_row {
-            Some(_) => upper.flat_map(|[x, y]| [[x, y], [x, -y]]).collect(),
+            Some(_) => upper.into_iter().flat_map(|[x, y]| [[x, y], [x, -y]]).collect(),
             None => Vec::new(),
         };
         let mut members = Vec::new();
