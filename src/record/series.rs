@@ -206,3 +206,35 @@ fn get_bonds(group: &Group) -> hdf5::Result<Vec<BondEvent>> {
         })
         .collect())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_series_from_before_there_were_rings_and_gauges_is_read_without_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("series.h5");
+        let series = Series {
+            probes: vec![Probe {
+                time: 3.0,
+                j_integral: [1.0; 3],
+                ..Probe::default()
+            }],
+            gauge_places: vec![[1.0, 2.0]],
+            gauges: vec![[1.0; 5]],
+            ..Series::default()
+        };
+        let write = |group: &Group| {
+            put_series(group, &series)?;
+            group.unlink("gauges")?;
+            let probes = group.group("probes")?;
+            LATER_COLUMNS.iter().try_for_each(|column| probes.unlink(column.0))
+        };
+        sealed::write(&path, SEAL, write).unwrap();
+        let found = get_series(&sealed::open(&path, SEAL).unwrap()).unwrap();
+        assert_eq!(found.probes[0].time, 3.0);
+        assert!(found.probes[0].j_integral.iter().all(|j| j.is_nan()));
+        assert!(found.gauge_places.is_empty() && found.gauges.is_empty());
+    }
+}

@@ -64,8 +64,8 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                  the domain integral with finite strain and inertia, in {RINGS} rings side by side that reach to at most \
                  {RING_SPACINGS} spacings (at least {RING_ELEMENTS} element edges), and to at most {} % of the way to the nearest \
                  edge or grip. The value is the mean of the rings, ± half of the range between them: what \
-                 waves on their way through the rings, and a mesh too coarse for them, make J depend on the ring. Absent \
-                 where there is no room for rings.",
+                 a mesh too coarse for the rings makes of it. Waves that pass the tip let J itself swing by some percent \
+                 within picoseconds, in all rings alike. Absent where there is no room for rings.",
                 percent(RING_CLEAR_SHARE)
             ),
         ),

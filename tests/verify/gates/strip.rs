@@ -68,14 +68,14 @@ fn the_j_integral_in_a_strip_is_what_it_stores_ahead_whatever_the_ring() {
         let found = specimen.j_integral(RING_CLEAR_SHARE * half_height);
         let expected = stored(&shape, &material, strain);
         let setting =
-            format!("{SMOOTH}, n = {element}, strip half {half_height:.0} r0 high, half of Griffith's energy");
+            format!("{SMOOTH}, n = {element}, strip of half height {half_height:.0} r0, half of Griffith's energy");
         for (ring, j) in ["inner", "middle", "outer"].into_iter().zip(found) {
             gate.within(
                 &format!("J over the {ring} ring = 2 h W(strain)"),
                 &setting,
                 j,
                 expected,
-                PATH,
+                RELEASED,
             );
         }
         let [low, high] = [
