@@ -15,7 +15,7 @@ use history::Branch;
 use initiation::Initiation;
 use series::{Series, Setting};
 use speed::Speed;
-use stress_intensity::NearTip;
+use stress_intensity::{FromJ, NearTip};
 use waves::Arrival;
 
 /// Everything extracted from one case. Internal units (nm, ps, eV); what was not detected is `None` or empty.
@@ -32,6 +32,8 @@ pub struct Findings {
     pub speeds: Vec<Option<Speed>>,
     /// Near-tip fit of the stress intensity at the probe before initiation.
     pub near_tip: Option<NearTip>,
+    /// Stress intensity of the J-integral at the same probe.
+    pub from_j: Option<FromJ>,
     /// Stress intensity at which the elastic energy pays for the surfaces, eV/nm^2.5.
     pub griffith: Option<f64>,
     pub arrivals: Vec<Arrival>,
@@ -45,18 +47,18 @@ pub fn analyse(series: &Series, setting: &Setting) -> Findings {
     let initiation = initiation::initiation(&history.tips, series, setting);
     let window = speed::window(series, setting);
     let speeds = speed::speeds(&history.tips, series, initiation, window);
-    let near_tip = initiation.and_then(|start| {
-        let before = start.probe.checked_sub(1)?;
-        stress_intensity::near_tip(series, before, history.tips[before], setting)
-    });
+    let before = initiation.and_then(|start| start.probe.checked_sub(1));
+    let near_tip = before.and_then(|probe| stress_intensity::near_tip(series, probe, history.tips[probe], setting));
+    let from_j = before.and_then(|probe| stress_intensity::from_j(series, probe, setting));
     Findings {
-        arrivals: waves::predicted(history.tips.first().map(|tip| tip.x), setting),
+        arrivals: waves::arrivals(history.tips.first().map(|tip| tip.x), initiation, series, setting),
         tips: history.tips,
         branches: history.branches,
         initiation,
         speed_window: window,
         speeds,
         near_tip,
+        from_j,
         griffith: Some(stress_intensity::griffith(setting)),
     }
 }

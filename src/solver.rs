@@ -2,6 +2,8 @@
 
 pub mod checkpoint;
 mod cost;
+mod gauges;
+pub mod j_integral;
 mod ledger;
 mod observe;
 mod probe;
@@ -31,6 +33,8 @@ use crate::mesh::Mesh;
 use crate::relaxation::{self, RelaxationError, Target};
 use crate::state::State;
 use checkpoint::Checkpoint;
+use gauges::Gauges;
+use j_integral::JIntegral;
 use probe::ProfileLine;
 use schedule::Schedule;
 
@@ -68,11 +72,22 @@ pub struct Moment<'a> {
     pub broken: &'a [[i32; 3]],
 }
 
+/// What a probe reads.
+pub struct Reading<'a> {
+    /// A row of the series.
+    pub probe: &'a Probe,
+    /// Stress xx, yy, xy along the crack plane, eV/nm^3.
+    pub profile: &'a [[f64; 3]],
+    /// Velocity x, y (nm/ps) and stress xx, yy, xy (eV/nm^3) of every wave gauge.
+    pub gauges: &'a [[f64; 5]],
+    /// Bonds that changed since the row before.
+    pub bonds: &'a [BondEvent],
+}
+
 /// Takes what a run gives. An error ends the run: a lost output must never go unnoticed.
 pub trait Observer {
     type Error;
-    /// A row of the series, the profile along the crack plane, and the bonds that changed since the row before.
-    fn probe(&mut self, probe: &Probe, profile: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), Self::Error>;
+    fn probe(&mut self, reading: &Reading) -> Result<(), Self::Error>;
     fn snapshot(&mut self, moment: &Moment) -> Result<(), Self::Error>;
     /// All probes and snapshots up to here must be safe before the checkpoint is.
     /// `cost` is that of this part of the run.
@@ -167,6 +182,8 @@ pub struct Solver {
     settings: Settings,
     setting: Setting,
     profile: ProfileLine,
+    gauges: Gauges,
+    j_integral: JIntegral,
     step: u64,
     time: f64,
     time_step: f64,
@@ -200,6 +217,8 @@ impl Solver {
         loading.start(&mesh, &mut state);
         let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let profile = ProfileLine::new(&mesh, &setting);
+        let gauges = Gauges::new(&mesh, &setting);
+        let j_integral = JIntegral::new(&mesh, material);
         let tracker = Tracker::new(&setting);
         let mut forces = Forces::with_summation(mesh, material, settings.summation);
         forces
@@ -223,6 +242,8 @@ impl Solver {
             settings,
             setting,
             profile,
+            gauges,
+            j_integral,
             step: 0,
             time: 0.0,
             time_step,
@@ -272,6 +293,11 @@ impl Solver {
     /// Centres of the bins of the profile along the crack plane, nm from the left edge.
     pub fn profile_x(&self) -> &[f64] {
         self.profile.centres()
+    }
+
+    /// Where the wave gauges stand, nm from the left edge and from the crack plane.
+    pub fn gauge_places(&self) -> &[[f64; 2]] {
+        self.gauges.places()
     }
 
     /// Runs until something ends it; `stop` asks for a checkpoint and an early end.

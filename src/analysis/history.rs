@@ -4,6 +4,7 @@ use std::cmp::Reverse;
 
 use super::crack::branches;
 use super::crack::{BONDS_A_SPACING, Tip, Tracker};
+use super::initiation::ARREST_SPEED;
 use super::series::{BondEvent, Series, Setting};
 
 /// Side paths shorter than this are not branches: beside a path through atoms a few bonds break as the crack passes.
@@ -11,9 +12,6 @@ pub const SPUR_SPACINGS: usize = 5;
 
 /// A coarse mesh opens one edge of an element at once; only what is longer than this many edges is a branch there.
 pub const SPUR_ELEMENTS: usize = 2;
-
-/// A branch that grew slower than this share of the Rayleigh speed over its last spur length is arrested.
-pub const ARREST_SPEED: f64 = 0.1;
 
 /// A crack from its start to the end of the run.
 #[derive(Clone, Debug, Default)]

@@ -8,6 +8,10 @@ pub struct Series {
     pub profile_x: Vec<f64>,
     /// One profile a probe: `[sigma_xx, sigma_yy, sigma_xy]` in eV/nm^3 a bin; length `probes.len() * profile_x.len()`, probe-major.
     pub profiles: Vec<[f64; 3]>,
+    /// Where the wave gauges stand, nm from the left edge and from the crack plane.
+    pub gauge_places: Vec<[f64; 2]>,
+    /// Mean velocity x, y (nm/ps) and stress xx, yy, xy (eV/nm^3) of every gauge; probe-major as `profiles`.
+    pub gauges: Vec<[f64; 5]>,
     /// Bonds that broke or healed since the probe before, in order of time.
     pub bonds: Vec<BondEvent>,
 }
@@ -35,7 +39,12 @@ pub struct Probe {
     pub cutoff_release: f64,
     /// Kinetic temperature of the atomic regions, K; NaN where there are none.
     pub temperature: f64,
+    /// J-integral in each of the rings around the tip, from the innermost on, eV/nm; NaN where there are none.
+    pub j_integral: [f64; RINGS],
 }
+
+/// Rings around the tip over each of which the J-integral is taken.
+pub const RINGS: usize = 3;
 
 /// A nearest-neighbour bond of the reference lattice that broke (or closed again) between two probes.
 ///

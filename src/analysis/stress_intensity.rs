@@ -6,7 +6,7 @@ use super::crack::Tip;
 use super::regression;
 use super::series::{Series, Setting};
 
-/// The fit begins this many spacings, and this many element edges, ahead of the tip: nearer, the lattice and the
+/// The fit, and the innermost ring of the J-integral, begin this many spacings, and this many element edges, ahead of the tip: nearer, the lattice and the
 /// linear elements do not follow the singular field.
 pub const FROM_SPACINGS: f64 = 4.0;
 pub const FROM_ELEMENTS: f64 = 1.0;
@@ -19,6 +19,14 @@ pub const OFF_PLANE_SPACINGS: f64 = 2.0;
 
 /// Bins that a fit of two numbers with an error must have.
 pub const LEAST_BINS: usize = 3;
+
+/// The largest radius of the rings of the J-integral in spacings, and in edges of the elements at the crack: what is
+/// larger costs more and tells the same.
+pub const RING_SPACINGS: f64 = 30.0;
+pub const RING_ELEMENTS: f64 = 6.0;
+
+/// How much of the distance to the nearest edge or grip the rings may take.
+pub const RING_CLEAR_SHARE: f64 = 0.9;
 
 /// Result of the fit `sigma_yy sqrt(2 pi r) = K (1 + c r)` ahead of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -55,6 +63,33 @@ pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> O
         from,
         to,
         bins: points.len(),
+    })
+}
+
+/// K of the J-integral, from all rings around the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FromJ {
+    /// Mean of the rings.
+    pub value: f64,
+    /// Half of what lies between the smallest and the largest.
+    pub spread: f64,
+}
+
+/// K = sqrt(E J) of one probe, per thickness; `None` without rings, and where waves take more energy out of one of
+/// them than flows in.
+pub fn from_j(series: &Series, probe: usize, setting: &Setting) -> Option<FromJ> {
+    let rings = series.probes.get(probe)?.j_integral;
+    if !rings.iter().all(|j| *j > 0.0) {
+        return None;
+    }
+    let rings = rings.map(|j| (setting.young_modulus * j).sqrt() / setting.thickness);
+    let [low, high] = [
+        rings.iter().copied().fold(f64::INFINITY, f64::min),
+        rings.iter().copied().fold(0.0, f64::max),
+    ];
+    Some(FromJ {
+        value: rings.iter().sum::<f64>() / rings.len() as f64,
+        spread: 0.5 * (high - low),
     })
 }
 

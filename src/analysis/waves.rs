@@ -1,6 +1,11 @@
 //! When waves sent out by the starting crack come back to its tip.
 
-use super::series::Setting;
+mod picking;
+
+pub use picking::{AFTER_SHARE, BEFORE_SHARE, LEAST_RIVALS, LEAST_SCATTERS, WINDOW};
+
+use super::initiation::Initiation;
+use super::series::{Series, Setting};
 
 /// A wave and the face that sends it back. Times in ps after the crack starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -8,7 +13,7 @@ pub struct Arrival {
     pub wave: Wave,
     pub face: Face,
     pub predicted: f64,
-    /// Picked from the computed fields; not done yet.
+    /// Picked from the wave gauges; `None` where it does not stand out.
     pub measured: Option<f64>,
 }
 
@@ -27,27 +32,35 @@ pub enum Face {
     TopAndBottom,
 }
 
-/// Straight paths at the speeds of long waves, with the tip (nm from the left edge) standing still. A Rayleigh wave
-/// runs along the crack faces only, so none comes from the top and bottom.
-pub fn predicted(tip: Option<f64>, setting: &Setting) -> Vec<Arrival> {
+impl Wave {
+    /// nm/ps
+    fn speed(self, setting: &Setting) -> f64 {
+        match self {
+            Self::Longitudinal => setting.longitudinal_speed,
+            Self::Transverse => setting.transverse_speed,
+            Self::Rayleigh => setting.rayleigh_speed,
+        }
+    }
+}
+
+/// Every wave on its way, with the tip (nm from the left edge) standing still. Predicted are straight paths at the speeds
+/// of long waves. A Rayleigh wave runs along the crack faces only, so none comes from the top and bottom.
+pub fn arrivals(tip: Option<f64>, initiation: Option<Initiation>, series: &Series, setting: &Setting) -> Vec<Arrival> {
     let Some(tip) = tip else {
         return Vec::new();
     };
-    let arrival = |wave, face| {
+    let arrival = |wave: Wave, face| {
         let path = match face {
             Face::Left => 2.0 * tip,
             Face::TopAndBottom => setting.height,
         };
-        let speed = match wave {
-            Wave::Longitudinal => setting.longitudinal_speed,
-            Wave::Transverse => setting.transverse_speed,
-            Wave::Rayleigh => setting.rayleigh_speed,
-        };
+        let predicted = path / wave.speed(setting);
+        let measured = initiation.and_then(|start| picking::pick(wave, face, path, start, series, setting));
         Arrival {
             wave,
             face,
-            predicted: path / speed,
-            measured: None,
+            predicted,
+            measured,
         }
     };
     vec![

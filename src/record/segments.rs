@@ -55,9 +55,14 @@ fn append(series: &mut Series, first_probe: u64, mut part: Series) -> Result<(),
     if probes > 0 && part.profile_x != series.profile_x {
         return Err("the bins of its profiles are not those of the segments before it".to_owned());
     }
+    if probes > 0 && part.gauge_places != series.gauge_places {
+        return Err("its wave gauges do not stand where those of the segments before it do".to_owned());
+    }
     series.profile_x = part.profile_x;
+    series.gauge_places = part.gauge_places;
     series.probes.append(&mut part.probes);
     series.profiles.append(&mut part.profiles);
+    series.gauges.append(&mut part.gauges);
     series.bonds.append(&mut part.bonds);
     Ok(())
 }

@@ -56,11 +56,20 @@ const COLUMNS: [Column; 11] = [
     ("temperature", "K", |probe| &mut probe.temperature),
 ];
 
+/// Columns that files written before there were any do not have; not a number there.
+const LATER_COLUMNS: [Column; 3] = [
+    ("j_integral_inner", "eV/nm", |probe| &mut probe.j_integral[0]),
+    ("j_integral_middle", "eV/nm", |probe| &mut probe.j_integral[1]),
+    ("j_integral_outer", "eV/nm", |probe| &mut probe.j_integral[2]),
+];
+
 pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
     let Series {
         probes,
         profile_x,
         profiles,
+        gauge_places,
+        gauges,
         bonds,
     } = series;
     put_probes(&new_group(parent, "probes")?, probes)?;
@@ -77,24 +86,62 @@ pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
         Packing::Deflated,
     )?;
 
+    let group = new_group(parent, "gauges")?;
+    let count = gauge_places.len();
+    put(
+        &group,
+        "place",
+        "nm",
+        &[count, 2],
+        gauge_places.as_flattened(),
+        Packing::Deflated,
+    )?;
+    let part = |from: usize, width: usize| -> Vec<f64> {
+        let rows = gauges.iter().flat_map(|row| &row[from..from + width]);
+        rows.copied().collect()
+    };
+    let shape = |width: usize| [probes.len(), count, width];
+    put(&group, "velocity", "nm/ps", &shape(2), &part(0, 2), Packing::Deflated)?;
+    put(&group, "stress", "eV/nm^3", &shape(3), &part(2, 3), Packing::Deflated)?;
+
     put_bonds(&new_group(parent, "bonds")?, bonds)
 }
 
 pub(super) fn get_series(parent: &Group) -> hdf5::Result<Series> {
     let profiles = parent.group("profiles")?;
-    Ok(Series {
+    let mut series = Series {
         probes: get_probes(&parent.group("probes")?)?,
         profile_x: get(&profiles, "x")?,
         profiles: get_rows(&profiles, "stress")?,
         bonds: get_bonds(&parent.group("bonds")?)?,
-    })
+        ..Series::default()
+    };
+    get_gauges(parent, &mut series)?;
+    Ok(series)
+}
+
+/// Places and readings; none in files written before there were any.
+fn get_gauges(parent: &Group, series: &mut Series) -> hdf5::Result<()> {
+    if !parent.link_exists("gauges") {
+        return Ok(());
+    }
+    let group = parent.group("gauges")?;
+    let velocity: Vec<[f64; 2]> = get_rows(&group, "velocity")?;
+    let stress: Vec<[f64; 3]> = get_rows(&group, "stress")?;
+    if velocity.len() != stress.len() {
+        return Err("the gauges have not as many velocities as stresses".into());
+    }
+    let rows = velocity.iter().zip(&stress);
+    series.gauges = rows.map(|(v, s)| [v[0], v[1], s[0], s[1], s[2]]).collect();
+    series.gauge_places = get_rows(&group, "place")?;
+    Ok(())
 }
 
 fn put_probes(group: &Group, probes: &[Probe]) -> hdf5::Result<()> {
     let shape = [probes.len()];
     let step: Vec<u64> = probes.iter().map(|probe| probe.step).collect();
     put(group, "step", "1", &shape, &step, Packing::Deflated)?;
-    for (name, unit, place) in COLUMNS {
+    for (name, unit, place) in COLUMNS.into_iter().chain(LATER_COLUMNS) {
         let column: Vec<f64> = probes.iter().map(|probe| *place(&mut probe.clone())).collect();
         put(group, name, unit, &shape, &column, Packing::Deflated)?;
     }
@@ -113,6 +160,15 @@ fn get_probes(group: &Group) -> hdf5::Result<Vec<Probe>> {
         .collect();
     for (name, _, place) in COLUMNS {
         for (probe, number) in probes.iter_mut().zip(get_column::<f64>(group, name, length)?) {
+            *place(probe) = number;
+        }
+    }
+    for (name, _, place) in LATER_COLUMNS {
+        let column = match group.link_exists(name) {
+            true => get_column::<f64>(group, name, length)?,
+            false => vec![f64::NAN; length],
+        };
+        for (probe, number) in probes.iter_mut().zip(column) {
             *place(probe) = number;
         }
     }
@@ -151,4 +207,36 @@ fn get_bonds(group: &Group) -> hdf5::Result<Vec<BondEvent>> {
             broken: broken[bond],
         })
         .collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_series_from_before_there_were_rings_and_gauges_is_read_without_them() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("series.h5");
+        let series = Series {
+            probes: vec![Probe {
+                time: 3.0,
+                j_integral: [1.0; 3],
+                ..Probe::default()
+            }],
+            gauge_places: vec![[1.0, 2.0]],
+            gauges: vec![[1.0; 5]],
+            ..Series::default()
+        };
+        let write = |group: &Group| {
+            put_series(group, &series)?;
+            group.unlink("gauges")?;
+            let probes = group.group("probes")?;
+            LATER_COLUMNS.iter().try_for_each(|column| probes.unlink(column.0))
+        };
+        sealed::write(&path, SEAL, write).unwrap();
+        let found = get_series(&sealed::open(&path, SEAL).unwrap()).unwrap();
+        assert_eq!(found.probes[0].time, 3.0);
+        assert!(found.probes[0].j_integral.iter().all(|j| j.is_nan()));
+        assert!(found.gauge_places.is_empty() && found.gauges.is_empty());
+    }
 }

@@ -4,10 +4,14 @@ use super::Analysed;
 use super::numbers::significant;
 use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
-use crate::analysis::history::{ARREST_SPEED, SPUR_ELEMENTS, SPUR_SPACINGS};
-use crate::analysis::initiation::ADVANCE_SPACINGS;
+use crate::analysis::history::{SPUR_ELEMENTS, SPUR_SPACINGS};
+use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED};
+use crate::analysis::series::RINGS;
 use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
-use crate::analysis::stress_intensity::{FROM_ELEMENTS, FROM_SPACINGS, TO_SHARE};
+use crate::analysis::stress_intensity::{
+    FROM_ELEMENTS, FROM_SPACINGS, RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS, TO_SHARE,
+};
+use crate::analysis::waves::{AFTER_SHARE, BEFORE_SHARE, LEAST_RIVALS, LEAST_SCATTERS, WINDOW};
 
 /// A term and what it means here.
 pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
@@ -31,8 +35,9 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Initiation",
             format!(
-                "The first probe from which on the crack stays longer than the notch by more than {ADVANCE_SPACINGS} \
-                 spacings and one element edge at the crack plane."
+                "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings and one element edge beyond \
+                 the notch, never to come back to less than {ADVANCE_SPACINGS} spacings: before it the tip stood still \
+                 for longer than a crack at {ARREST_SPEED} c_R needs for a spacing."
             ),
         ),
         (
@@ -50,6 +55,18 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                  {FROM_SPACINGS} spacings (at least {FROM_ELEMENTS} element edges) to {} % of the crack length, the \
                  ligament or the height, whichever is smallest; ± is the standard error of the fit alone.",
                 percent(TO_SHARE)
+            ),
+        ),
+        (
+            "K of the J-integral",
+            format!(
+                "√(EJ) at the same probe, J being the energy that the field around the tip would give for its advance: \
+                 the domain integral with finite strain and inertia, in {RINGS} rings side by side that reach to at most \
+                 {RING_SPACINGS} spacings (at least {RING_ELEMENTS} element edges), and to at most {} % of the way to the nearest \
+                 edge or grip. The value is the mean of the rings, ± half of the range between them: what \
+                 a mesh too coarse for the rings makes of it. Waves that pass the tip let J itself swing by some percent \
+                 within picoseconds, in all rings alike. Absent where there is no room for rings.",
+                percent(RING_CLEAR_SHARE)
             ),
         ),
         (
@@ -77,9 +94,21 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         ),
         (
             "Waves",
-            "Predicted arrivals at the tip, counted from initiation, for straight paths and a tip at rest; nothing is \
-             picked from the computed fields yet."
-                .to_owned(),
+            format!(
+                "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves and a \
+                 tip at rest. Measured: wave gauges halfway to the grips and halfway to the left edge record the mean \
+                 velocity v and stress σ of a patch; σ ± ρcv is what a plane wave brings back towards the tip, and is \
+                 untouched by what leaves it. Where it bends most, where its mean over the next {} % of the predicted \
+                 time lies farthest off its line over the {} % before, the wave is at the gauge, and the way from there \
+                 is added. It is known to a probe, and comes late by up to half of the time in which the front rises. \
+                 Absent where this bend is not {LEAST_SCATTERS} times the scatter before initiation and {LEAST_RIVALS} \
+                 times any before it, or \
+                 comes {} % off the prediction or more; behind cracks longer than half of the height, where other waves \
+                 come first; and for Rayleigh waves, which have no plane front.",
+                percent(AFTER_SHARE),
+                percent(BEFORE_SHARE),
+                percent(WINDOW)
+            ),
         ),
         (
             "Energy error",

@@ -227,6 +227,14 @@ fn results(cases: &[Analysed]) -> Vec<Row> {
                 significant(fit.error * MEGAPASCAL_ROOT_METRE, 2)
             ))
         }),
+        row(cases, "K at initiation, J-integral (MPa √m)", |case| {
+            let j = case.findings.from_j?;
+            Some(format!(
+                "{} ± {}",
+                root_metre(j.value),
+                significant(j.spread * MEGAPASCAL_ROOT_METRE, 2)
+            ))
+        }),
         row(cases, "K of Griffith (MPa √m)", |case| {
             Some(root_metre(case.findings.griffith?))
         }),

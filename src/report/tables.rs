@@ -183,7 +183,9 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
         rows.number("k_ic_near_tip_mpa_sqrt_m", |case| {
             case.findings.near_tip.map(|fit| root_metre(fit.value))
         }),
-        rows.number("k_ic_j_integral_mpa_sqrt_m", |_| None),
+        rows.number("k_ic_j_integral_mpa_sqrt_m", |case| {
+            case.findings.from_j.map(|j| root_metre(j.value))
+        }),
         rows.number("k_griffith_mpa_sqrt_m", |case| case.findings.griffith.map(root_metre)),
         rows.number("peak_speed_over_c_r", |case| case.peak_speed_over_rayleigh()),
         rows.number("first_branch_time_ps", |case| {

@@ -3,14 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use super::RunCaseError;
-use crate::analysis::series::{BondEvent, Probe, Series};
+use crate::analysis::series::Series;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
 use crate::record::frames::{FieldMesh, Frame};
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
-use crate::solver::{self, Cost, Moment, Observer, Progress, Solver, site_volume};
+use crate::solver::{self, Cost, Moment, Observer, Progress, Reading, Solver, site_volume};
 use crate::store::{Account, Phase};
 
 /// Keeps probes in memory until the next checkpoint, and writes snapshots at once.
@@ -30,6 +30,7 @@ impl<'a> Recorder<'a> {
     pub fn new(folder: &Path, case_id: String, solver: &Solver, tell: &'a mut (dyn FnMut(&Progress) + Send)) -> Self {
         let part = Series {
             profile_x: solver.profile_x().to_vec(),
+            gauge_places: solver.gauge_places().to_vec(),
             ..Series::default()
         };
         Self {
@@ -49,8 +50,10 @@ impl<'a> Recorder<'a> {
         record::write_segment(&self.folder, self.first_probe, &self.part)?;
         self.first_probe += self.part.probes.len() as u64;
         let profile_x = std::mem::take(&mut self.part.profile_x);
+        let gauge_places = std::mem::take(&mut self.part.gauge_places);
         self.part = Series {
             profile_x,
+            gauge_places,
             ..Series::default()
         };
         Ok(())
@@ -92,10 +95,11 @@ impl<'a> Recorder<'a> {
 impl Observer for Recorder<'_> {
     type Error = RunCaseError;
 
-    fn probe(&mut self, probe: &Probe, profile: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), RunCaseError> {
-        self.part.probes.push(*probe);
-        self.part.profiles.extend_from_slice(profile);
-        self.part.bonds.extend_from_slice(bonds);
+    fn probe(&mut self, reading: &Reading) -> Result<(), RunCaseError> {
+        self.part.probes.push(*reading.probe);
+        self.part.profiles.extend_from_slice(reading.profile);
+        self.part.gauges.extend_from_slice(reading.gauges);
+        self.part.bonds.extend_from_slice(reading.bonds);
         Ok(())
     }
 

@@ -2,8 +2,10 @@
 
 use std::time::Instant;
 
-use super::{Measure, Moment, Observer, Phase, Progress, RunError, Solver, probe, temperature};
-use crate::analysis::series::{BondEvent, Probe};
+use super::j_integral::Rings;
+use super::{Measure, Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe, temperature};
+use crate::analysis::crack::Tracker;
+use crate::analysis::series::{BondEvent, Probe, RINGS};
 
 impl Solver {
     /// Gives observers what is due; at the end of a run all that is not yet given.
@@ -39,15 +41,23 @@ impl Solver {
     }
 
     fn probe<O: Observer>(&mut self, observer: &mut O, measure: &Measure) -> Result<(), RunError<O::Error>> {
-        let row = self.probe_row(measure);
         let number = self.probes.taken() - 1;
         let bonds = self.changed_bonds(number as u32);
         if let Some(tracker) = &mut self.tracker {
             bonds.iter().for_each(|event| tracker.apply(event));
             self.stop.follow(tracker.tip().x, self.time);
         }
+        let row = self.probe_row(measure);
         let profile = self.profile.stress(measure, &self.setting);
-        observer.probe(&row, &profile, &bonds).map_err(RunError::Output)?;
+        let reading = Reading {
+            probe: &row,
+            profile: &profile,
+            gauges: &self
+                .gauges
+                .read(self.forces.mesh(), &self.state, measure, &self.setting),
+            bonds: &bonds,
+        };
+        observer.probe(&reading).map_err(RunError::Output)?;
         observer.progress(&Progress {
             step: self.step,
             of: self
@@ -91,6 +101,17 @@ impl Solver {
             work: balance.work,
             cutoff_release: balance.cutoff_release,
             temperature: temperature::kinetic_temperature(self.forces.mesh(), &self.state),
+            j_integral: self.j_integral(),
+        }
+    }
+
+    /// J in the rings around the tip; not a number where there is no tip or no room for rings.
+    fn j_integral(&mut self) -> [f64; RINGS] {
+        let mesh = self.forces.mesh();
+        let tip = self.tracker.as_ref().map(Tracker::tip);
+        match tip.and_then(|tip| Rings::around(tip, mesh, &self.setting)) {
+            Some(rings) => self.j_integral.evaluate(mesh, &self.state, rings),
+            None => [f64::NAN; RINGS],
         }
     }
 

@@ -1,17 +1,16 @@
 //! Cracks whose shape and motion are known beforehand.
 
-use std::f64::consts::PI;
+mod stress_intensity;
+mod waves;
+
 use std::time::{Duration, Instant};
 
 use cgaft::analysis::crack::{Tip, Tracker};
-use cgaft::analysis::series::{BondEvent, Probe, Series, Setting};
-use cgaft::analysis::stress_intensity::{griffith, near_tip};
+use cgaft::analysis::series::{BondEvent, Series, Setting};
 use cgaft::analysis::{Findings, analyse, comparison, history};
 
 use super::synthetic::{SPACING, breaks, kinked, probes, series, setting, straight};
 
-/// eV/nm^2.5 in MPa sqrt(m).
-const MEGAPASCAL_ROOT_METRE: f64 = 160.217_663_4 * 3.162_277_660_168_379e-5;
 /// 35 ms were measured on two cores with five busy processes; a quadratic method takes minutes.
 const LOADED: Duration = Duration::from_millis(250);
 /// Rounding only: bond middles are exact in units of the spacing.
@@ -201,6 +200,25 @@ fn initiation_is_the_first_lasting_advance() {
 }
 
 #[test]
+fn initiation_is_where_the_advance_begins_and_not_where_it_has_gone_far_enough() {
+    let opened = |from: f64, to: f64, probe: u32| breaks(&straight(from, to), probe);
+    // Half an edge opens early and stands; then a whole edge and more opens within twenty probes.
+    let mut bonds = opened(99.0, 106.0, 20);
+    bonds.extend((0..20).flat_map(|step| opened(106.0 + f64::from(step), 107.0 + f64::from(step), 60 + step as u32)));
+    for element_at_crack in [1, 10] {
+        let setting = Setting {
+            element_at_crack,
+            ..setting()
+        };
+        let found = analyse(&series(100, bonds.clone(), &setting), &setting)
+            .initiation
+            .unwrap();
+        let wanted = if element_at_crack == 1 { 20 } else { 60 };
+        assert_eq!(found.probe, wanted, "elements of {element_at_crack} atoms an edge");
+    }
+}
+
+#[test]
 fn a_crack_that_never_starts_has_no_initiation_and_no_speed() {
     let found = findings(breaks(&straight(99.0, 101.0), 20), 100);
     assert_eq!(found.initiation, None);
@@ -249,73 +267,6 @@ fn the_speed_of_a_steady_tip_is_its_speed() {
         assert!(speed.error < 1e-6);
     }
     assert!(found.speeds[start..112].iter().all(Option::is_some));
-}
-
-#[test]
-fn the_stress_intensity_of_an_exact_field_is_recovered() {
-    let (wanted, tip) = (200.0, 25.6);
-    let setting = setting();
-    let profile_x: Vec<f64> = (0..400).map(|bin| (f64::from(bin) + 0.5) * SPACING).collect();
-    let field = |x: f64| {
-        if x > tip {
-            wanted / (2.0 * PI * (x - tip)).sqrt() * (1.0 + 0.03 * (x - tip))
-        } else {
-            0.0
-        }
-    };
-    let profiles = profile_x.iter().map(|&x| [0.0, field(x), 0.0]).collect();
-    let series = Series {
-        probes: vec![Probe::default()],
-        profile_x,
-        profiles,
-        bonds: Vec::new(),
-    };
-    let fit = near_tip(
-        &series,
-        0,
-        Tip {
-            x: tip,
-            y: 0.0,
-            arc_length: tip,
-        },
-        &setting,
-    )
-    .unwrap();
-    let kinked = Tip {
-        x: tip,
-        y: 3.0 * setting.spacing,
-        arc_length: tip,
-    };
-    assert_eq!(
-        near_tip(&series, 0, kinked, &setting),
-        None,
-        "the profile is not ahead of a tip off its plane"
-    );
-    assert!((fit.value / wanted - 1.0).abs() < 0.01, "{fit:?}");
-    assert!(fit.from >= 4.0 * SPACING && fit.bins > 10, "{fit:?}");
-}
-
-#[test]
-fn griffith_of_nearest_neighbour_lennard_jones_is_1_005_mpa_root_metre() {
-    let full = griffith(&setting()) * MEGAPASCAL_ROOT_METRE;
-    assert!((full - 1.005).abs() < 1e-3, "{full}");
-    // Under truncation at 0.34 nm a bond is worth 0.672 epsilon.
-    let truncated = Setting {
-        fracture_energy: 0.672 * setting().fracture_energy,
-        ..setting()
-    };
-    let share = griffith(&truncated) * MEGAPASCAL_ROOT_METRE / full;
-    assert!((share - 0.672_f64.sqrt()).abs() < EXACT);
-}
-
-#[test]
-fn waves_come_back_after_their_path_over_their_speed() {
-    let setting = setting();
-    let found = findings(Vec::new(), 10);
-    let first = found.arrivals[0];
-    assert!((first.predicted - 2.0 * found.tips[0].x / setting.longitudinal_speed).abs() < EXACT);
-    assert!((found.arrivals[3].predicted - setting.height / setting.longitudinal_speed).abs() < EXACT);
-    assert!(found.arrivals.iter().all(|arrival| arrival.measured.is_none()));
 }
 
 #[test]

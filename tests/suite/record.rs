@@ -51,6 +51,7 @@ fn series(probes: std::ops::Range<u64>, bins: u64) -> Series {
         work: number(index + 7),
         cutoff_release: number(index + 8),
         temperature: f64::NAN,
+        j_integral: [number(index + 9), f64::NAN, number(index + 10)],
     };
     let bond = |index: u64| BondEvent {
         probe: index as u32,
@@ -65,6 +66,11 @@ fn series(probes: std::ops::Range<u64>, bins: u64) -> Series {
         profiles: probes
             .clone()
             .flat_map(|p| (0..bins).map(move |b| [number(p), number(b), number(p * b)]))
+            .collect(),
+        gauge_places: vec![[1.0, 2.0], [1.0, -2.0]],
+        gauges: probes
+            .clone()
+            .flat_map(|p| (0..2).map(move |g| [0, 1, 2, 3, 4].map(|k| number(p + g * k))))
             .collect(),
         bonds: probes.filter(|index| index % 3 == 0).map(bond).collect(),
     }

@@ -11,7 +11,9 @@ use cgaft::material::Material;
 use cgaft::mesh::Mesh;
 use cgaft::potential::AtCutoff;
 use cgaft::solver::checkpoint::Checkpoint;
-use cgaft::solver::{Cost, Ending, Moment, Observer, Progress, Settings, Solver, SolverError, TimeStep, Until};
+use cgaft::solver::{
+    Cost, Ending, Moment, Observer, Progress, Reading, Settings, Solver, SolverError, TimeStep, Until,
+};
 
 use super::specimens::{all_meshes, lennard_jones, nearest_neighbours, slab};
 
@@ -26,9 +28,9 @@ struct Keeper {
 
 impl Observer for Keeper {
     type Error = Infallible;
-    fn probe(&mut self, probe: &Probe, _: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), Infallible> {
-        self.probes.push(*probe);
-        self.bonds.extend_from_slice(bonds);
+    fn probe(&mut self, reading: &Reading) -> Result<(), Infallible> {
+        self.probes.push(*reading.probe);
+        self.bonds.extend_from_slice(reading.bonds);
         Ok(())
     }
     fn snapshot(&mut self, moment: &Moment) -> Result<(), Infallible> {
@@ -230,9 +232,10 @@ fn a_run_from_a_checkpoint_ends_with_the_same_bits() {
             struct StopAt<'a>(&'a mut Keeper, &'a AtomicBool);
             impl Observer for StopAt<'_> {
                 type Error = Infallible;
-                fn probe(&mut self, probe: &Probe, line: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), Infallible> {
-                    self.1.store(probe.time > 57.5, std::sync::atomic::Ordering::Relaxed);
-                    self.0.probe(probe, line, bonds)
+                fn probe(&mut self, reading: &Reading) -> Result<(), Infallible> {
+                    let late = reading.probe.time > 57.5;
+                    self.1.store(late, std::sync::atomic::Ordering::Relaxed);
+                    self.0.probe(reading)
                 }
                 fn snapshot(&mut self, moment: &Moment) -> Result<(), Infallible> {
                     self.0.snapshot(moment)

@@ -143,6 +143,8 @@ pub fn crack_run(setting: &Setting, start: f64, element: f64) -> Series {
             work,
             cutoff_release,
             temperature: if element < 2.0 { 10.0 * running } else { f64::NAN },
+            j_integral: [0.98, 1.0, 1.02]
+                .map(|share| share * (intensity(strain) * setting.thickness).powi(2) / setting.young_modulus),
         });
     }
     let width = element.max(2.0) * SPACING;
@@ -157,7 +159,7 @@ pub fn crack_run(setting: &Setting, start: f64, element: f64) -> Series {
             0.0
         };
         let far = if distance > 0.0 { 0.5 * row.sigma_yy } else { 0.0 };
-        [0.4 * far, 230.0 * row.strain / 0.018 * near + far, 0.0]
+        [0.4 * far, intensity(row.strain) * near + far, 0.0]
     };
     let profiles = rows
         .iter()
@@ -168,7 +170,13 @@ pub fn crack_run(setting: &Setting, start: f64, element: f64) -> Series {
         profile_x,
         profiles,
         bonds,
+        ..Series::default()
     }
+}
+
+/// Stress intensity at a strain, eV/nm^2.5.
+fn intensity(strain: f64) -> f64 {
+    230.0 * strain / 0.018
 }
 
 /// A slab of triangles of so many atoms an edge (1: of atoms), torn open up to `tip` nm.

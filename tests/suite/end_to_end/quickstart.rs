@@ -16,6 +16,12 @@ const STRESS_TOLERANCE: f64 = 0.02;
 const INITIATION_TOLERANCE: f64 = 0.03;
 /// Of the work of the grips; 0.3 % is measured while a crack runs through atoms at half the stability limit.
 const ENERGY_TOLERANCE: f64 = 1e-2;
+/// The stress ahead of the tip and the energy that flows into it tell one K; waves on their way through set them 6 % apart.
+const INTENSITY_TOLERANCE: f64 = 0.1;
+/// J sees the same far field whatever is between; 0.3 % is measured.
+const J_TOLERANCE: f64 = 0.02;
+/// Of 15.5 ps; both the start of the crack and the arrival are known to a probe of 1 ps. 9 % is measured.
+const ECHO_TOLERANCE: f64 = 0.15;
 /// Bytes of a page with its pictures in it.
 const SMALLEST_PAGE: usize = 100_000;
 
@@ -59,9 +65,32 @@ fn the_quickstart_keeps_its_promise() {
         "{mixed} against {atoms}"
     );
 
+    for row in &summary {
+        let [near, far] = ["k_ic_near_tip_mpa_sqrt_m", "k_ic_j_integral_mpa_sqrt_m"].map(|column| number(row, column));
+        assert!(
+            (near / far - 1.0).abs() < INTENSITY_TOLERANCE,
+            "{}: {near} and {far}",
+            row["case"]
+        );
+    }
+    let j = |index: usize| number(&summary[index], "k_ic_j_integral_mpa_sqrt_m");
+    assert!((j(1) / j(2) - 1.0).abs() < J_TOLERANCE, "{} against {}", j(1), j(2));
+
     stresses_agree(&table(&results, "stress_strain"), atoms);
+    echoes_come_in_time(&table(&results, "wave_arrival"));
     every_table_is_there(&results);
     the_page_is_whole(&results);
+}
+
+/// The longitudinal wave from the grips is found in the fields of every case.
+fn echoes_come_in_time(rows: &Rows) {
+    let echo = |row: &&BTreeMap<String, String>| row["wave"] == "longitudinal" && row["path"].starts_with("top");
+    let echoes: Vec<_> = rows.iter().filter(echo).collect();
+    assert_eq!(echoes.len(), 3);
+    for row in echoes {
+        let [predicted, measured] = ["predicted_ps", "measured_ps"].map(|column| number(row, column));
+        assert!((measured / predicted - 1.0).abs() < ECHO_TOLERANCE, "{row:?}");
+    }
 }
 
 /// Coarse and mixed against atoms, at equal strain, until the first crack starts.

@@ -4,12 +4,12 @@ use std::convert::Infallible;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
 
-use cgaft::analysis::series::{BondEvent, Probe, Series};
+use cgaft::analysis::series::Series;
 use cgaft::forces::Summation;
 use cgaft::loading::{Grip, Stretching};
 use cgaft::mesh::Mesh;
 use cgaft::solver::checkpoint::Checkpoint;
-use cgaft::solver::{Moment, Observer, Progress, Settings, Solver, TimeStep, Until};
+use cgaft::solver::{Cost, Moment, Observer, Progress, Reading, Settings, Solver, TimeStep, Until};
 
 use super::{SMOOTH, block_mesh, smooth};
 use crate::verify::specimens::slab;
@@ -29,9 +29,9 @@ pub struct Keeper(pub Series);
 
 impl Observer for Keeper {
     type Error = Infallible;
-    fn probe(&mut self, probe: &Probe, _: &[[f64; 3]], bonds: &[BondEvent]) -> Result<(), Infallible> {
-        self.0.probes.push(*probe);
-        self.0.bonds.extend_from_slice(bonds);
+    fn probe(&mut self, reading: &Reading) -> Result<(), Infallible> {
+        self.0.probes.push(*reading.probe);
+        self.0.bonds.extend_from_slice(reading.bonds);
         Ok(())
     }
     fn snapshot(&mut self, _: &Moment) -> Result<(), Infallible> {

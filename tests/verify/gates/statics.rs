@@ -1,5 +1,6 @@
 //! Cracked specimens at rest between grips.
 
+use cgaft::analysis::series::RINGS;
 use cgaft::forces::Forces;
 use cgaft::loading::{Grip, Stretching};
 use cgaft::material::Material;
@@ -7,6 +8,7 @@ use cgaft::mesh::cut::Cut;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::relaxation::{Target, relax};
+use cgaft::solver::j_integral::{JIntegral, Rings};
 use cgaft::state::State;
 
 use super::smooth;
@@ -123,6 +125,14 @@ impl Specimen {
             }
         }
         panic!("neither at rest nor broken");
+    }
+
+    /// J-integral in rings within a circle around the tip, in spacings. The specimen must be at rest.
+    pub fn j_integral(&self, radius: f64) -> [f64; RINGS] {
+        let mesh = self.forces.mesh();
+        let tip = [(mesh.sites.left() + self.crack) * mesh.spacing, mesh.middle_height()];
+        let rings = Rings::within(radius * mesh.spacing, tip);
+        JIntegral::new(mesh, *self.forces.material()).evaluate(mesh, &self.state, rings)
     }
 
     /// Energy above that of the unstrained lattice with the same cut.

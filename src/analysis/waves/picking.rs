@@ -1,0 +1,114 @@
+//! Arrivals picked from the wave gauges.
+//!
+//! A plane wave that moves along +s with speed c carries sigma = -rho c v in the velocity and the stress on the plane
+//! that it moves through, one along -s the opposite. So sigma + rho c v is what moves along -s alone: it stays on its
+//! trend while the waves of the starting crack pass the gauge outwards, and has a kink when they come back.
+
+use super::{Face, Wave};
+use crate::analysis::initiation::Initiation;
+use crate::analysis::regression;
+use crate::analysis::series::{Series, Setting};
+
+/// How many times its scatter before the crack starts a kink must be, and how many times any kink before it.
+pub const LEAST_SCATTERS: f64 = 4.0;
+pub const LEAST_RIVALS: f64 = 2.0;
+
+/// Share of the predicted time by which an arrival may be off. What comes before is something else.
+pub const WINDOW: f64 = 0.2;
+
+/// A kink is how far the mean of the probes that follow lies off the line through those before: over these shares of the
+/// predicted time, and no fewer probes.
+pub const BEFORE_SHARE: f64 = 0.2;
+pub const AFTER_SHARE: f64 = 0.05;
+const BEFORE_PROBES: usize = 10;
+const AFTER_PROBES: usize = 3;
+
+/// Time after the start of the crack at which a wave is back at the tip, ps; `None` where it does not stand out.
+pub(super) fn pick(
+    wave: Wave,
+    face: Face,
+    path: f64,
+    start: Initiation,
+    series: &Series,
+    setting: &Setting,
+) -> Option<f64> {
+    // Behind a crack longer than that, what comes back from the grips aslant is there before.
+    if face == Face::Left && path > setting.height {
+        return None;
+    }
+    let speed = wave.speed(setting);
+    let predicted = path / speed;
+    let (signal, way) = returning(wave, face, series, setting)?;
+    let time = |probe: usize| series.probes[probe].time - start.time;
+    // When a wave that passes the gauge at this probe is at the tip.
+    let arrival = |probe: usize| time(probe) + way / speed;
+    let last = signal.len().checked_sub(1)?;
+    let interval = (time(last) - time(0)) / last as f64;
+    let probes = |share: f64, least: usize| ((share * predicted / interval) as usize).max(least);
+    let [before, after] = [probes(BEFORE_SHARE, BEFORE_PROBES), probes(AFTER_SHARE, AFTER_PROBES)];
+    let kink = |probe: usize| {
+        let points: Vec<(f64, f64)> = (probe - before..probe).map(|k| (time(k), signal[k])).collect();
+        let line = regression::line(&points)?;
+        let off = (probe..probe + after).map(|k| signal[k] - line.intercept - line.slope * time(k));
+        Some(off.sum::<f64>().abs() / after as f64)
+    };
+    let end = signal.len().checked_sub(after)?;
+    let quiet = (before..start.probe.checked_sub(after)?).filter(|&probe| time(probe) >= -predicted);
+    let quiet: Vec<f64> = quiet.filter_map(kink).collect();
+    if quiet.len() < BEFORE_PROBES {
+        return None;
+    }
+    let scatter = (quiet.iter().map(|kink| kink * kink).sum::<f64>() / quiet.len() as f64).sqrt();
+    let heard = (start.probe..end).take_while(|&probe| arrival(probe) <= (1.0 + WINDOW) * predicted);
+    let heard: Vec<f64> = heard.map(kink).collect::<Option<_>>()?;
+    let largest = (0..heard.len()).max_by(|&a, &b| heard[a].total_cmp(&heard[b]))?;
+    let rivals = &heard[..largest.saturating_sub(after)];
+    let rival = rivals.iter().copied().fold(0.0, f64::max);
+    let measured = arrival(start.probe + largest);
+    let stands_out = heard[largest] > LEAST_SCATTERS * scatter && heard[largest] > LEAST_RIVALS * rival;
+    (stands_out && measured >= (1.0 - WINDOW) * predicted).then_some(measured)
+}
+
+/// What moves towards the tip past the gauges of a path at every probe, eV/nm^3, and their way to the tip, nm. Both sides
+/// of the crack plane are taken together, one mirrored.
+fn returning(wave: Wave, face: Face, series: &Series, setting: &Setting) -> Option<(Vec<f64>, f64)> {
+    let (first, second) = gauges(face, series, setting)?;
+    let density = setting.young_modulus
+        / (1.0 - setting.poisson_ratio.powi(2))
+        / (setting.longitudinal_speed.powi(2) * setting.thickness);
+    let impedance = density * wave.speed(setting);
+    // Velocity and stress that the wave carries, and their signs below the crack plane as seen in a mirror.
+    let [vx, vy, xx, yy, xy] = [0, 1, 2, 3, 4usize];
+    let (velocity, stress, mirrored) = match (wave, face) {
+        (Wave::Longitudinal, Face::TopAndBottom) => (vy, yy, [-1.0, 1.0]),
+        (Wave::Transverse, Face::TopAndBottom) => (vx, xy, [1.0, -1.0]),
+        (Wave::Longitudinal, Face::Left) => (vx, xx, [1.0, 1.0]),
+        (Wave::Transverse, Face::Left) => (vy, xy, [-1.0, -1.0]),
+        (Wave::Rayleigh, _) => return None,
+    };
+    // From the top waves come down, along -y; from the left along +x.
+    let sign = if face == Face::TopAndBottom { 1.0 } else { -1.0 };
+    let rows = series.gauges.chunks_exact(series.gauge_places.len());
+    let signal = rows.map(|row| {
+        let [above, below] = [row[first], row[second]];
+        let v = 0.5 * (above[velocity] + mirrored[0] * below[velocity]);
+        let s = 0.5 * (above[stress] + mirrored[1] * below[stress]);
+        s + sign * impedance * v
+    });
+    let [x, y] = series.gauge_places[first];
+    let way = match face {
+        Face::TopAndBottom => y,
+        Face::Left => setting.crack_length - x,
+    };
+    Some((signal.collect(), way))
+}
+
+/// The gauges above and below the crack plane on the way to a face.
+fn gauges(face: Face, series: &Series, setting: &Setting) -> Option<(usize, usize)> {
+    let beside = |x: f64| x < setting.crack_length - 0.5 * setting.spacing;
+    let find = |above: bool| {
+        let mut places = series.gauge_places.iter();
+        places.position(|&[x, y]| beside(x) == (face == Face::Left) && (y > 0.0) == above)
+    };
+    find(true).zip(find(false))
+}

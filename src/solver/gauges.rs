@@ -1,0 +1,83 @@
+//! Wave gauges: patches of the specimen whose mean velocity and stress every probe records.
+
+use super::probe::site_volume;
+use crate::analysis::series::Setting;
+use crate::forces::Measure;
+use crate::mesh::Mesh;
+use crate::state::State;
+
+/// Where gauges stand on the way from the crack plane to the grips, and from the tip of the notch to the left edge. Halfway,
+/// waves are plane enough, and what leaves the tip has passed before it comes back.
+const SHARE: f64 = 0.5;
+
+/// Radius of a patch, as a share of half of the height, and no less than so many element edges and spacings.
+const RADIUS_SHARE: f64 = 0.08;
+const LEAST_ELEMENTS: f64 = 1.5;
+const LEAST_SPACINGS: f64 = 5.0;
+
+/// Patches of elements around fixed places.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gauges {
+    /// nm from the left edge and from the crack plane.
+    places: Vec<[f64; 2]>,
+    /// Gauge, element and number of its sites.
+    members: Vec<(u32, u32, u32)>,
+}
+
+impl Gauges {
+    /// Above and below the tip of the notch, and along its faces; none without a crack.
+    pub fn new(mesh: &Mesh, setting: &Setting) -> Self {
+        let half = 0.5 * setting.height;
+        let largest = mesh.elements.first().map_or(1, |element| element.size);
+        let edges = LEAST_ELEMENTS * f64::from(largest);
+        let radius = (RADIUS_SHARE * half).max(setting.spacing * LEAST_SPACINGS.max(edges));
+        let tip = setting.crack_length;
+        let upper = [[tip, SHARE * half], [tip - SHARE * tip, radius]];
+        let places: Vec<[f64; 2]> = match setting.crack_row {
+            Some(_) => upper.into_iter().flat_map(|[x, y]| [[x, y], [x, -y]]).collect(),
+            None => Vec::new(),
+        };
+        let mut members = Vec::new();
+        for (number, element) in mesh.elements.iter().enumerate() {
+            let corners = element.corners();
+            let centre = [0, 1].map(|axis| {
+                let sum: f64 = corners.iter().map(|&corner| mesh.reference(corner)[axis]).sum();
+                sum / corners.len() as f64
+            });
+            let centre = [centre[0] - setting.left_x, centre[1] - mesh.middle_height()];
+            for (gauge, place) in places.iter().enumerate() {
+                let beside = centre[1] * place[1] > 0.0;
+                if beside && (centre[0] - place[0]).hypot(centre[1] - place[1]) <= radius {
+                    members.push((gauge as u32, number as u32, element.site_count() as u32));
+                }
+            }
+        }
+        Self { places, members }
+    }
+
+    pub fn places(&self) -> &[[f64; 2]] {
+        &self.places
+    }
+
+    /// Mean velocity x, y (nm/ps) and virial stress xx, yy, xy (eV/nm^3) of every gauge; not numbers where a patch holds
+    /// no element.
+    pub fn read(&self, mesh: &Mesh, state: &State, measure: &Measure, setting: &Setting) -> Vec<[f64; 5]> {
+        let mut sums = vec![([0.0; 5], 0.0); self.places.len()];
+        let volume = site_volume(setting);
+        for &(gauge, element, sites) in &self.members {
+            let (sum, count) = &mut sums[gauge as usize];
+            let [element, sites] = [element as usize, sites as usize];
+            let first = mesh.first_node(element);
+            let nodes = first..first + mesh.elements[element].node_count();
+            let weight = sites as f64 / nodes.len() as f64;
+            *count += sites as f64;
+            for axis in 0..2 {
+                sum[axis] += weight * state.velocity[axis][nodes.clone()].iter().sum::<f64>();
+            }
+            (0..3).for_each(|k| sum[2 + k] += measure.virial[element][k] / volume);
+        }
+        sums.into_iter()
+            .map(|(sum, count)| sum.map(|total| total / count))
+            .collect()
+    }
+}

@@ -1,0 +1,103 @@
+//! The energy that goes into the tip of a crack, from the field around it: the J-integral over a domain.
+//!
+//! With P the first Piola stress, W and T the densities of strain and kinetic energy, a and v acceleration and velocity,
+//! all in the reference configuration, the crack along x with faces free of traction,
+//!
+//! J = int [(P_iJ u_i,x - (W + T) d_xJ) q_,J + rho (a_i u_i,x - v_i v_i,x) q] dA,
+//!
+//! where q is 1 around the tip and falls to 0 at some distance. The line integral is that of Rice (1968), the domain form
+//! that of Li, Shih and Needleman (1985), with the terms of inertia that of Nakamura, Shih and Freund (1985). What force is
+//! left on the nodes stands for rho a, so that J does not depend on the domain where the lattice is not at rest either.
+//!
+//! The integral is a sum over elements, single atoms among them. q is carried by the nodes as the displacements are, and
+//! every gradient comes from the bonds of the element by least squares ([`cell`]). In a homogeneous field the gradients
+//! of q cancel bond by bond, and J is zero to rounding.
+
+mod cell;
+mod rings;
+
+pub use rings::Rings;
+
+use rayon::prelude::*;
+
+use crate::analysis::series::RINGS;
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::state::State;
+use cell::{BondTable, Field, Nodes};
+
+/// Elements in one parallel task.
+const TASK: usize = 64;
+
+/// The bonds of a specimen's elements, for as many evaluations as wanted.
+pub struct JIntegral {
+    material: Material,
+    tables: Vec<BondTable>,
+    /// The last rings, kept because a tip at rest keeps them.
+    rings: Option<Rings>,
+    /// Elements that the rings touch, and for every element of the mesh its place among them or `FAR`.
+    touched: Vec<u32>,
+    place: Vec<u32>,
+}
+
+const FAR: u32 = u32::MAX;
+
+impl JIntegral {
+    pub fn new(mesh: &Mesh, material: Material) -> Self {
+        let mut sizes: Vec<i32> = mesh.elements.iter().map(|element| element.size).collect();
+        sizes.dedup();
+        Self {
+            tables: sizes.iter().map(|&size| BondTable::new(size, &material)).collect(),
+            material,
+            rings: None,
+            touched: Vec::new(),
+            place: vec![FAR; mesh.elements.len()],
+        }
+    }
+
+    /// J of every ring, eV/nm. The forces of the state must be those of its positions.
+    pub fn evaluate(&mut self, mesh: &Mesh, state: &State, rings: Rings) -> [f64; RINGS] {
+        if self.rings != Some(rings) {
+            self.go_to(mesh, rings);
+        }
+        let touched = self.touched.par_iter().with_min_len(TASK);
+        let nodes: Vec<Nodes> = touched
+            .clone()
+            .map(|&element| cell::nodes_of(mesh, state, &rings, element as usize))
+            .collect();
+        let field = Field {
+            mesh,
+            material: &self.material,
+            tables: &self.tables,
+            state,
+            rings: &rings,
+            place: &self.place,
+            nodes: &nodes,
+        };
+        let parts: Vec<[f64; RINGS]> = touched.map(|&element| field.contribution(element as usize)).collect();
+        // In the order of the elements, so that threads leave no trace.
+        parts.into_iter().fold([0.0; RINGS], |mut sum, part| {
+            (0..RINGS).for_each(|ring| sum[ring] += part[ring]);
+            sum
+        })
+    }
+
+    /// Finds the elements that may have a bond into the rings, or to an element that reaches into them.
+    fn go_to(&mut self, mesh: &Mesh, rings: Rings) {
+        let largest = mesh.elements.first().map_or(0, |element| element.size);
+        let elements = (0..mesh.elements.len() as u32).into_par_iter();
+        let near = |&number: &u32| {
+            let element = &mesh.elements[number as usize];
+            let anchor = mesh.reference([element.column, element.row]);
+            rings.reach(anchor) <= f64::from(element.size + largest) * mesh.spacing
+        };
+        self.touched
+            .iter()
+            .for_each(|&element| self.place[element as usize] = FAR);
+        self.touched = elements.filter(near).collect();
+        for (place, &element) in (0..).zip(&self.touched) {
+            self.place[element as usize] = place;
+        }
+        self.rings = Some(rings);
+    }
+}
