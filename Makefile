@@ -5,13 +5,14 @@ TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test verify check lint schema setup test-setup install
+.PHONY: help quickstart build test verify speed-against-error check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
 	@echo 'make quickstart   build, then run studies/quickstart.yaml and build its report'
 	@echo 'make test         build, then run all fast tests'
 	@echo 'make verify       the long verification: closed forms, and the same specimens in LAMMPS, which it installs; writes docs/verification.md'
+	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
 	@echo 'make schema       write schemas/study.schema.json again from the types'
@@ -30,6 +31,18 @@ test: test-setup
 verify: build
 	@.ci/packages lammps
 	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test verify
+
+# The costs in the report are those of this machine, so LAMMPS is measured on it too.
+speed-against-error: build
+	@.ci/packages lammps
+	benches/lammps.sh $(TARGET)/release/cgaft > $(TARGET)/lammps.csv
+	cp $(TARGET)/lammps.csv studies/speed-against-error/lammps.csv
+	$(TARGET)/release/cgaft study run studies/speed-against-error.yaml --fresh --jobs 2 --results $(TARGET)/results
+	mkdir -p reports/speed-against-error
+	rm -rf reports/speed-against-error/tables reports/speed-against-error/figures
+	cp -r $(TARGET)/results/speed-against-error/tables $(TARGET)/results/speed-against-error/figures reports/speed-against-error
+	rm reports/speed-against-error/figures/*.png reports/speed-against-error/tables/stress_*.csv
+	grep -v figures/slab- $(TARGET)/results/speed-against-error/report.md > reports/speed-against-error/report.md
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \

@@ -8,6 +8,7 @@ mod numbers;
 mod page;
 mod palette;
 mod picture;
+mod precision;
 mod slab;
 mod study;
 mod summary;
@@ -59,6 +60,15 @@ impl Analysed<'_> {
         Some(self.findings.peak_speed()? / self.rayleigh_speed()?)
     }
 
+    /// What a simulated picosecond costs, in seconds of one core.
+    fn core_seconds_a_picosecond(&self) -> Option<f64> {
+        let manifest = &self.result.manifest;
+        let cores = f64::from(manifest.ranks? * manifest.threads?);
+        let time = self.result.series.probes.last()?.time;
+        let cost = cores * manifest.wall_seconds? / time;
+        (cost.is_finite() && cost > 0.0).then_some(cost)
+    }
+
     fn atom_steps_a_second(&self) -> Option<f64> {
         let atoms = self.result.setting.as_ref()?.represented_atoms;
         let wall = self.result.manifest.wall_seconds.filter(|&wall| wall > 0.0)?;
@@ -78,7 +88,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
     for table in &mut tables {
         table.write(&folder.join("tables"))?;
     }
-    let charts = figures::charts(&cases);
+    let charts = figures::charts(&cases, &study.comparisons);
     let mut drawn = Vec::new();
     for chart in &charts {
         let svg = chart.draw()?;

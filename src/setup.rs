@@ -3,6 +3,7 @@
 mod census;
 mod error;
 mod estimate;
+pub mod memory;
 mod recorder;
 mod run;
 

@@ -2,6 +2,7 @@
 
 pub mod checkpoint;
 mod cost;
+mod error;
 mod gauges;
 pub mod j_integral;
 mod ledger;
@@ -15,6 +16,7 @@ mod temperature;
 mod time_step;
 
 pub use cost::{Cost, Phase};
+pub use error::{RunError, SolverError};
 pub use ledger::Ledger;
 pub use probe::site_volume;
 pub use stop::{Ending, Until};
@@ -106,72 +108,6 @@ pub struct Progress {
     pub strain: f64,
     /// Distance of the foremost tip from the left edge, nm.
     pub tip: Option<f64>,
-}
-
-/// Why a run cannot go on.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SolverError {
-    #[error(
-        "the time step {given:.5} ps is above the stability limit {limit:.5} ps of this mesh and material; \
-         choose a smaller one, or `time-step: auto`"
-    )]
-    StepTooLong { given: f64, limit: f64 },
-    #[error(
-        "step {step}, {time:.3} ps, strain {strain:.5}: {source}, which was at x = {:.3} nm, y = {:.3} nm; \
-         try a smaller fraction of the stability limit or a lower strain rate",
-        place[0], place[1]
-    )]
-    BlowUp {
-        step: u64,
-        time: f64,
-        strain: f64,
-        /// Where the element was before the loading: nm from the left edge, and from the crack plane.
-        place: [f64; 2],
-        source: ForceError,
-    },
-    #[error(
-        "step {step}, {time:.3} ps, strain {strain:.5}: energy went astray by {imbalance:.3e} eV, \
-         more than {limit:.0} % of the energy put in ({put_in:.3e} eV), with the fastest node at x = {:.3} nm, \
-         y = {:.3} nm; try a smaller fraction of the stability limit",
-        fastest[0], fastest[1]
-    )]
-    EnergyAstray {
-        step: u64,
-        time: f64,
-        strain: f64,
-        imbalance: f64,
-        put_in: f64,
-        limit: f64,
-        /// Where the fastest node was before the loading: nm from the left edge, and from the crack plane.
-        fastest: [f64; 2],
-    },
-    #[error(
-        "step {step}, {time:.3} ps, strain {strain:.5}: the given time step of {given:.5} ps is no longer stable: the \
-         specimen has stiffened and its limit is {limit:.5} ps now; choose a smaller one, or `time-step: auto`, which \
-         follows the limit"
-    )]
-    StepUnstable {
-        step: u64,
-        time: f64,
-        strain: f64,
-        given: f64,
-        limit: f64,
-    },
-    #[error("the run cannot start: {0}")]
-    NoStart(ForceError),
-    #[error("`relax` before the run: {0}")]
-    NoRest(RelaxationError),
-    #[error("this is no checkpoint of this specimen: {0}")]
-    OtherSpecimen(&'static str),
-}
-
-/// How a run ended, or why not; observers' errors pass through.
-#[derive(Debug, thiserror::Error)]
-pub enum RunError<E> {
-    #[error(transparent)]
-    Physics(#[from] SolverError),
-    #[error("{0}")]
-    Output(E),
 }
 
 /// One specimen in motion.

@@ -28,6 +28,10 @@ pub struct Difference {
     pub initiation_strain: Option<f64>,
     /// Mean difference of the speed, without sign, at equal strain while both run, over the reference's mean speed.
     pub speed: Option<f64>,
+    /// Largest difference of the measured arrivals of waves that both have.
+    pub arrival: Option<f64>,
+    /// Of the stress intensity of the J-integral at initiation.
+    pub stress_intensity: Option<f64>,
 }
 
 /// For each case the one that it is measured against: of those with the same specimen and loading, the one with the
@@ -72,6 +76,13 @@ pub fn difference(case: Candidate, reference: Candidate, earliest: Option<f64>) 
         up_to_strain: up_to,
         initiation_strain: start(case).zip(start(reference)).map(|(own, other)| own / other - 1.0),
         speed: speed_difference(case, reference),
+        arrival: arrival_difference(case.findings, reference.findings),
+        stress_intensity: {
+            let value = |findings: &Findings| findings.from_j.map(|j| j.value);
+            value(case.findings)
+                .zip(value(reference.findings))
+                .map(|(own, other)| own / other - 1.0)
+        },
     }
 }
 
@@ -83,6 +94,17 @@ fn stress_difference(case: &Series, reference: &Series, up_to: f64) -> Option<f6
         .iter()
         .filter(|row| range.contains(&row.strain) && row.sigma_yy != 0.0);
     let differences = rows.filter_map(|row| Some((interpolate(&curve, row.strain)? / row.sigma_yy - 1.0).abs()));
+    differences.max_by(f64::total_cmp)
+}
+
+fn arrival_difference(case: &Findings, reference: &Findings) -> Option<f64> {
+    let differences = reference.arrivals.iter().filter_map(|expected| {
+        let same = case
+            .arrivals
+            .iter()
+            .find(|own| (own.wave, own.face) == (expected.wave, expected.face))?;
+        Some((same.measured? / expected.measured? - 1.0).abs())
+    });
     differences.max_by(f64::total_cmp)
 }
 

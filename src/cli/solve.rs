@@ -207,6 +207,7 @@ fn compute(
         time_step_ps: finished.time_step,
         stability_limit_ps: finished.stability_limit,
         energy_error_relative: finished.energy_error,
+        peak_memory_bytes: setup::memory::peak(),
         cost: finished.cost,
     }))
 }

@@ -5,8 +5,10 @@
 //! those beyond the cutoff add nothing, so the moment at which a list was made leaves no trace in the result.
 
 mod search;
+mod sums;
 
 pub use search::Field;
+use sums::sum_chunk;
 
 use std::ops::Range;
 
@@ -118,22 +120,9 @@ impl Contacts {
         force_x.resize(self.element.len(), 0.0);
         force_y.resize(self.element.len(), 0.0);
         let planes = force_x.par_chunks_mut(CHUNK).zip(force_y.par_chunks_mut(CHUNK));
-        planes.enumerate().for_each(|(chunk, (x, y))| {
-            for k in 0..x.len() {
-                let mut sum = [0.0; 2];
-                self.for_each_partner(chunk * CHUNK + k, |[dx, dy], severed, count| {
-                    let squared = dx * dx + dy * dy;
-                    let pull = if severed {
-                        law.repulsion(squared, spacing).slope
-                    } else {
-                        law.slope(squared)
-                    };
-                    let pull = count * pull;
-                    sum = [sum[0] + pull * dx, sum[1] + pull * dy];
-                });
-                [x[k], y[k]] = sum;
-            }
-        });
+        planes
+            .enumerate()
+            .for_each(|(chunk, (x, y))| sum_chunk(self, law, chunk * CHUNK, x, y));
         self.force = [force_x, force_y];
     }
 
@@ -152,16 +141,22 @@ impl Contacts {
         self.position = [site_x, site_y];
     }
 
+    /// How many pairs one of two sites stands for.
+    #[inline(always)]
+    fn count(&self, site: usize, other: usize) -> f64 {
+        match self.weight.is_empty() {
+            true => 1.0,
+            false => 0.5 * (self.weight[site] + self.weight[other]),
+        }
+    }
+
     /// Calls with the vector to each listed partner of a site, whether a cut severs the pair, and how many it stands for.
     #[inline(always)]
     pub fn for_each_partner(&self, site: usize, mut call: impl FnMut([f64; 2], bool, f64)) {
         let [x, y] = [self.position[0][site], self.position[1][site]];
         for &partner in &self.partners[self.start[site] as usize..self.start[site + 1] as usize] {
             let other = partner.site();
-            let count = match self.weight.is_empty() {
-                true => 1.0,
-                false => 0.5 * (self.weight[site] + self.weight[other]),
-            };
+            let count = self.count(site, other);
             call(
                 [self.position[0][other] - x, self.position[1][other] - y],
                 partner.severed(),

@@ -255,10 +255,8 @@ pub fn string_forces<S: PairShape, const W: usize>(
         second.on_nodes(kind.elements[1].size),
     ];
     let mut forces = StringForces::default();
-    for plane in 0..6 {
-        forces.0[plane] = first[plane];
-        forces.0[6 + plane] = second[plane];
-    }
+    forces.0[..6].copy_from_slice(&first);
+    forces.0[6..].copy_from_slice(&second);
     forces
 }
 

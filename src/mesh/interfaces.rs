@@ -321,8 +321,8 @@ mod tests {
             .flat_map(|a| triangular::NEAREST.map(|v| (a, [a[0] + v[0], a[1] + v[1]])));
         let across = across.filter(|&(a, b)| mesh.owner_of(b).is_some_and(|owner| Some(owner) != mesh.owner_of(a)));
         assert_eq!(counts.iter().sum::<i32>() as usize, across.count());
-        // An interior triangle: three edges of 19 bonds, three corner bonds; half of each belongs to it.
-        let inner = 2 * 13 + 6;
+        // An upright triangle in the middle of a row: three edges of 19 bonds, three corner bonds; half of each belongs to it.
+        let inner = 2 * 13 + 3;
         let own: i32 = interfaces.of(inner).iter().map(|&number| bonds(number as usize)).sum();
         assert_eq!(own, 57 + 3);
     }

@@ -36,7 +36,7 @@ pub struct Compared {
     pub values: &'static [&'static str],
 }
 
-pub const COMPARED: [Compared; 2] = [
+pub const COMPARED: [Compared; 3] = [
     Compared {
         table: "summary",
         keys: &[],
@@ -67,6 +67,11 @@ pub const COMPARED: [Compared; 2] = [
             ("path", &["left face", "top and bottom faces"]),
         ],
         values: &["reference_ps"],
+    },
+    Compared {
+        table: "speed_against_error",
+        keys: &[],
+        values: &["core_seconds_per_ps", "peak_memory_mib"],
     },
 ];
 
@@ -185,17 +190,18 @@ impl Sheet<'_> {
         let unknown = head
             .iter()
             .find(|column| COMPARED.iter().all(|table| !has(table, column)));
-        let [summary, waves] = &COMPARED;
+        let [summary, waves, costs] = &COMPARED;
         match unknown {
             Some(column) => self.add(
                 format!("{} has a column `{column}`, which no table has", self.file),
-                suggestion(column, &[summary.values, waves.values].concat()),
+                suggestion(column, &[summary.values, waves.values, costs.values].concat()),
             ),
             None => self.add(
                 format!("the columns of {} are not those of one table", self.file),
                 format!(
-                    "write columns of `{}`, or `wave`, `path` and {} of `{}`",
+                    "write columns of `{}`, of `{}`, or `wave`, `path` and {} of `{}`",
                     summary.table,
+                    costs.table,
                     alternatives(waves.values),
                     waves.table
                 ),

@@ -1,5 +1,7 @@
 //! Line charts: what they show, apart from how they are drawn.
 
+pub mod scatter;
+
 use std::fmt::Display;
 use std::sync::Once;
 
@@ -9,6 +11,7 @@ use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
 use super::{ReportError, numbers, palette};
+use scatter::Scatter;
 
 /// Size of a chart, and units of the drawing a unit of that: coordinates in the file are whole numbers.
 const WIDTH: u32 = 600;
@@ -42,7 +45,13 @@ pub struct Chart {
     /// Axis labels, with units.
     pub x: String,
     pub y: String,
-    pub curves: Vec<Curve>,
+    pub content: Content,
+}
+
+/// What stands between the axes.
+pub enum Content {
+    Curves(Vec<Curve>),
+    Points(Scatter),
 }
 
 /// One curve; a point without a finite y is a gap.
@@ -70,7 +79,11 @@ impl Chart {
         {
             prepare_fonts();
             let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-            self.draw_on(&root).map_err(|error| failed(&error))?;
+            let drawn = match &self.content {
+                Content::Curves(curves) => self.draw_on(curves, &root),
+                Content::Points(scatter) => scatter.draw_on(&root, [&self.x, &self.y]),
+            };
+            drawn.map_err(|error| failed(&error))?;
             root.present().map_err(|error| failed(&error))?;
         }
         let start = svg.find('\n').ok_or_else(|| failed(&"the drawing is empty"))?;
@@ -126,18 +139,22 @@ impl Chart {
                 number(top.0)
             )
         };
-        let courses: Vec<String> = self.curves.iter().map(course).collect();
-        format!("{} over {}. {}", self.y, self.x, courses.join(" "))
+        let courses = match &self.content {
+            Content::Curves(curves) => curves.iter().map(course).collect::<Vec<String>>().join(" "),
+            Content::Points(scatter) => scatter.describe(),
+        };
+        format!("{} over {}. {courses}", self.y, self.x)
     }
 
     fn draw_on<DB: DrawingBackend>(
         &self,
+        curves: &[Curve],
         root: &DrawingArea<DB, plotters::coord::Shift>,
     ) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
         root.fill(&WHITE)?;
-        let legend = self.draw_legend(root)?;
+        let legend = draw_legend(curves, root)?;
         let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
-        let (x, y) = self.ranges();
+        let (x, y) = ranges(curves);
         let mut chart = ChartBuilder::on(root)
             .margin_left(4 * FINE)
             .margin_right(18 * FINE)
@@ -161,70 +178,70 @@ impl Chart {
             .x_desc(&self.x)
             .y_desc(&self.y)
             .draw()?;
-        self.curves.iter().try_for_each(|curve| curve.draw_on(&mut chart))
+        curves.iter().try_for_each(|curve| curve.draw_on(&mut chart))
     }
+}
 
-    /// A line, a marker and a name for each curve, in rows; gives the height used.
-    fn draw_legend<DB: DrawingBackend>(
-        &self,
-        root: &DrawingArea<DB, plotters::coord::Shift>,
-    ) -> Result<i32, DrawingAreaErrorKind<DB::ErrorType>> {
-        let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
-        let (line, gap, row) = (28 * FINE, 7 * FINE, 24 * FINE);
-        let (left, right) = (78 * FINE, (WIDTH as i32 - 10) * FINE);
-        let (mut x, mut y) = (left, row * 2 / 3);
-        for curve in &self.curves {
-            let length = |label: &str| root.estimate_text_size(label, &font).map(|size| size.0 as i32);
-            let mut label = curve.label.clone();
-            let mut kept = label.chars().count();
-            while length(&label)? > right - left - line - gap && kept > 2 {
-                kept -= 2;
-                label = shortened(&curve.label, kept);
-            }
-            let width = line + gap + length(&label)? + 2 * gap;
-            if x > left && x + width > right {
-                (x, y) = (left, y + row);
-            }
-            let ends = [(x, y), (x + line, y)];
-            match palette::DASHES[curve.style % palette::DASHES.len()] {
-                None => root.draw(&PathElement::new(ends, curve.stroke()))?,
-                Some((dash, pause)) => {
-                    root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?;
-                }
-            }
-            root.draw(&curve.marker((x + line / 2, y)))?;
-            root.draw(&Text::new(label, (x + line + gap, y - TEXT * FINE / 2), font.clone()))?;
-            x += width;
+/// A line, a marker and a name for each curve, in rows; gives the height used.
+fn draw_legend<DB: DrawingBackend>(
+    curves: &[Curve],
+    root: &DrawingArea<DB, plotters::coord::Shift>,
+) -> Result<i32, DrawingAreaErrorKind<DB::ErrorType>> {
+    let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
+    let (line, gap, row) = (28 * FINE, 7 * FINE, 24 * FINE);
+    let (left, right) = (78 * FINE, (WIDTH as i32 - 10) * FINE);
+    let (mut x, mut y) = (left, row * 2 / 3);
+    for curve in curves {
+        let length = |label: &str| root.estimate_text_size(label, &font).map(|size| size.0 as i32);
+        let mut label = curve.label.clone();
+        let mut kept = label.chars().count();
+        while length(&label)? > right - left - line - gap && kept > 2 {
+            kept -= 2;
+            label = shortened(&curve.label, kept);
         }
-        Ok(y + row / 2)
+        let width = line + gap + length(&label)? + 2 * gap;
+        if x > left && x + width > right {
+            (x, y) = (left, y + row);
+        }
+        let ends = [(x, y), (x + line, y)];
+        match palette::DASHES[curve.style % palette::DASHES.len()] {
+            None => root.draw(&PathElement::new(ends, curve.stroke()))?,
+            Some((dash, pause)) => {
+                root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?;
+            }
+        }
+        root.draw(&curve.marker((x + line / 2, y)))?;
+        root.draw(&Text::new(label, (x + line + gap, y - TEXT * FINE / 2), font.clone()))?;
+        x += width;
     }
+    Ok(y + row / 2)
+}
 
-    /// What the axes span: the data, zero, and a little more above and below.
-    fn ranges(&self) -> (std::ops::Range<f64>, std::ops::Range<f64>) {
-        let points = || {
-            self.curves
-                .iter()
-                .flat_map(|curve| &curve.points)
-                .filter(|point| point.1.is_finite())
-        };
-        let span = |values: &mut dyn Iterator<Item = f64>| {
-            values.fold((0.0_f64, 0.0_f64), |(low, high), value| {
-                (low.min(value), high.max(value))
-            })
-        };
-        let (_, right) = span(&mut points().map(|point| point.0));
-        // Curves that begin late are shown from where they begin.
-        let left = points().map(|point| point.0).fold(right, f64::min);
-        let left = if left > LATE * right {
-            left - 0.1 * (right - left)
-        } else {
-            left.min(0.0)
-        };
-        let (low, high) = span(&mut points().map(|point| point.1));
-        let right = if right > left { right } else { left + 1.0 };
-        let room = if high > low { 0.04 * (high - low) } else { 1.0 };
-        (left..right, if low < 0.0 { low - room } else { 0.0 }..high + room)
-    }
+/// What the axes span: the data, zero, and a little more above and below.
+fn ranges(curves: &[Curve]) -> (std::ops::Range<f64>, std::ops::Range<f64>) {
+    let points = || {
+        curves
+            .iter()
+            .flat_map(|curve| &curve.points)
+            .filter(|point| point.1.is_finite())
+    };
+    let span = |values: &mut dyn Iterator<Item = f64>| {
+        values.fold((0.0_f64, 0.0_f64), |(low, high), value| {
+            (low.min(value), high.max(value))
+        })
+    };
+    let (_, right) = span(&mut points().map(|point| point.0));
+    // Curves that begin late are shown from where they begin.
+    let left = points().map(|point| point.0).fold(right, f64::min);
+    let left = if left > LATE * right {
+        left - 0.1 * (right - left)
+    } else {
+        left.min(0.0)
+    };
+    let (low, high) = span(&mut points().map(|point| point.1));
+    let right = if right > left { right } else { left + 1.0 };
+    let room = if high > low { 0.04 * (high - low) } else { 1.0 };
+    (left..right, if low < 0.0 { low - room } else { 0.0 }..high + room)
 }
 
 /// The beginning and the end of a text, with so many letters in all: names of cases from a sweep differ at their end.

@@ -1,29 +1,32 @@
 //! The line charts of a report.
 
 use super::Analysed;
-use super::chart::{Chart, Curve};
-use super::numbers;
+use super::chart::{Chart, Content, Curve};
 use super::tables::profile_at_initiation;
 use super::units::{GIGAPASCAL, PERCENT};
+use super::{numbers, precision};
 use crate::analysis::series::Probe;
 use crate::analysis::speed::Speed;
+use crate::plan::Comparison;
 
 /// All charts that have something to show.
-pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
-    let mut charts = vec![
+pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
+    let mut charts = precision::charts(cases, comparisons);
+    charts.extend([
         stress_strain(cases),
         crack_speed(cases),
         tip_position(cases),
         profile(cases),
         imbalance(cases),
-    ];
+    ]);
     charts.extend(cases.iter().enumerate().map(|(index, case)| energies(index, case)));
-    for chart in &mut charts {
-        chart
-            .curves
-            .retain(|curve| curve.points.iter().any(|point| point.1.is_finite()));
-    }
-    charts.retain(|chart| !chart.curves.is_empty());
+    charts.retain_mut(|chart| match &mut chart.content {
+        Content::Curves(curves) => {
+            curves.retain(|curve| curve.points.iter().any(|point| point.1.is_finite()));
+            !curves.is_empty()
+        }
+        Content::Points(_) => true,
+    });
     charts
 }
 
@@ -37,7 +40,9 @@ pub fn is_of_a_report(name: &str) -> bool {
         "energy-imbalance",
     ];
     let id = name.strip_suffix(".svg").unwrap_or_default();
-    COMMON.contains(&id) || id.strip_prefix("energy-").is_some_and(numbers::is_index)
+    COMMON.contains(&id)
+        || id.starts_with("speed-against-error-")
+        || id.strip_prefix("energy-").is_some_and(numbers::is_index)
 }
 
 /// One curve a case.
@@ -72,7 +77,7 @@ fn stress_strain(cases: &[Analysed]) -> Chart {
             .to_owned(),
         x: "nominal strain (%)".to_owned(),
         y: "average σyy (GPa)".to_owned(),
-        curves: curves(cases, |case| over_strain(case, |row| row.sigma_yy * GIGAPASCAL)),
+        content: Content::Curves(curves(cases, |case| over_strain(case, |row| row.sigma_yy * GIGAPASCAL))),
     }
 }
 
@@ -97,7 +102,7 @@ fn crack_speed(cases: &[Analysed]) -> Chart {
                 .to_owned(),
         x: "nominal strain (%)".to_owned(),
         y: "crack speed / c_R".to_owned(),
-        curves: curves(cases, speed),
+        content: Content::Curves(curves(cases, speed)),
     }
 }
 
@@ -114,7 +119,7 @@ fn tip_position(cases: &[Analysed]) -> Chart {
         caption: "Distance of the foremost tip from the left edge, in the reference configuration.".to_owned(),
         x: "time (ps)".to_owned(),
         y: "tip x (nm)".to_owned(),
-        curves: curves(cases, position),
+        content: Content::Curves(curves(cases, position)),
     }
 }
 
@@ -135,7 +140,7 @@ fn profile(cases: &[Analysed]) -> Chart {
             .to_owned(),
         x: "distance ahead of the tip (nm)".to_owned(),
         y: "σyy (GPa)".to_owned(),
-        curves: curves(cases, stress),
+        content: Content::Curves(curves(cases, stress)),
     }
 }
 
@@ -167,7 +172,7 @@ fn imbalance(cases: &[Analysed]) -> Chart {
             .to_owned(),
         x: "nominal strain (%)".to_owned(),
         y: "imbalance (% of work)".to_owned(),
-        curves: curves(cases, error),
+        content: Content::Curves(curves(cases, error)),
     }
 }
 
@@ -203,11 +208,11 @@ fn energies(index: usize, case: &Analysed) -> Chart {
         ),
         x: "nominal strain (%)".to_owned(),
         y: format!("energy ({unit})"),
-        curves: vec![
+        content: Content::Curves(vec![
             curve(0, "grip work", &|row| row.work),
             curve(1, "potential", &|row| row.potential),
             curve(2, "kinetic", &|row| row.kinetic - start.kinetic),
             curve(3, "cutoff release", &|row| row.cutoff_release),
-        ],
+        ]),
     }
 }

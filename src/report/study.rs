@@ -60,6 +60,8 @@ pub struct Manifest {
     pub steps: Option<u64>,
     /// Largest energy imbalance over the largest work.
     pub energy_error: Option<f64>,
+    /// Largest memory of the solver, bytes.
+    pub peak_memory: Option<f64>,
     pub cost: Vec<Phase>,
 }
 

@@ -263,6 +263,12 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "crack speed, mean", |case| {
             or_reference(case, misfit(case.difference.speed))
         }),
+        row(cases, "arrival of waves, at most", |case| {
+            or_reference(case, misfit(case.difference.arrival))
+        }),
+        row(cases, "K at initiation, J-integral", |case| {
+            or_reference(case, case.difference.stress_intensity.map(signed_percent))
+        }),
         row(cases, "times less wall time", |case| {
             or_reference(case, times_faster(case, cases))
         }),

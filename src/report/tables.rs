@@ -6,6 +6,7 @@ use std::path::Path;
 use polars::prelude::*;
 
 use super::numbers::{self, round_significant};
+use super::precision::{self, Quantity};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
 use super::{Analysed, ReportError, expected};
 use crate::analysis::stress_intensity;
@@ -17,6 +18,8 @@ const DIGITS: usize = 9;
 
 /// Digits of a number on the page.
 const SHOWN_DIGITS: usize = 4;
+
+const MEBIBYTE: f64 = 1_048_576.0;
 
 /// A named table.
 pub struct Table {
@@ -35,6 +38,7 @@ pub fn all(cases: &[Analysed], comparisons: &[Comparison]) -> Result<Vec<Table>,
         ("branches", branches(cases)),
         ("cost", cost(cases)),
     ];
+    let precision = precision::rows(cases);
     let make = |(table, columns)| match DataFrame::new_infer_height(columns) {
         Ok(frame) => Ok(Table { name: table, frame }),
         Err(error) => Err(ReportError::Table {
@@ -43,6 +47,9 @@ pub fn all(cases: &[Analysed], comparisons: &[Comparison]) -> Result<Vec<Table>,
         }),
     };
     let mut tables = own.into_iter().map(make).collect::<Result<Vec<_>, _>>()?;
+    if !precision.is_empty() {
+        tables.push(make(("speed_against_error", speed_against_error(precision)))?);
+    }
     if !comparisons.is_empty() {
         tables.push(make(("comparison", expected::columns(comparisons, &tables)))?);
     }
@@ -195,6 +202,39 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
             case.findings.first_branch().map(|branch| branch.strain)
         }),
     ]
+}
+
+/// Errors are relative.
+fn speed_against_error(rows: Vec<precision::Row>) -> Vec<Column> {
+    let rows = Rows(rows);
+    let mut columns = vec![
+        rows.count("number", |row| Some(row.number)),
+        rows.text("case", |row| row.case.name()),
+        rows.text("reference", |row| row.reference.name()),
+        rows.number(precision::COST, |row| row.cost),
+        rows.count("nodes", |row| {
+            row.case.result.setting.as_ref().map(|setting| setting.nodes)
+        }),
+        rows.number("peak_memory_mib", |row| {
+            row.case.result.manifest.peak_memory.map(|bytes| bytes / MEBIBYTE)
+        }),
+    ];
+    for quantity in Quantity::ALL {
+        columns.push(rows.number(quantity.column(), |row| row.error(quantity)));
+    }
+    let best: Vec<Option<String>> = rows
+        .0
+        .iter()
+        .map(|row| {
+            let best = Quantity::ALL
+                .into_iter()
+                .filter(|&quantity| row.is_best(&rows.0, quantity));
+            let names: Vec<&str> = best.map(Quantity::column).collect();
+            (!names.is_empty()).then(|| names.join(" "))
+        })
+        .collect();
+    columns.push(Column::new("unbeaten_in".into(), best));
+    columns
 }
 
 fn crack_speed(cases: &[Analysed]) -> Vec<Column> {

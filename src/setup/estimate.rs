@@ -6,7 +6,7 @@ use crate::loading::{Grip, Stretching};
 use crate::material::Material;
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
-use crate::setup::{SetupError, material, mesh_plan, settings};
+use crate::setup::{SetupError, material, memory, mesh_plan, settings};
 use crate::solver::{Settings, Solver, SolverError, TimeStep};
 use crate::study::case::{self, Case};
 
@@ -131,7 +131,7 @@ pub fn refuse_what_does_not_fit(plan: &Plan) -> Result<(), SetupError> {
     let census = Census::by_area(plan);
     let sites = census.sites;
     let needed = census.memory() as f64 / GIBIBYTE;
-    match free_memory() {
+    match memory::free().map(|bytes| bytes as f64) {
         Some(present) if needed > present / GIBIBYTE => Err(SetupError::TooLarge {
             sites,
             needed,
@@ -139,15 +139,4 @@ pub fn refuse_what_does_not_fit(plan: &Plan) -> Result<(), SetupError> {
         }),
         _ => Ok(()),
     }
-}
-
-/// Bytes of memory that are free, where the system tells.
-fn free_memory() -> Option<f64> {
-    let table = std::fs::read_to_string("/proc/meminfo").ok()?;
-    let line = table.lines().find(|line| line.starts_with("MemAvailable:"))?;
-    line.split_whitespace()
-        .nth(1)?
-        .parse::<f64>()
-        .ok()
-        .map(|kibibytes| 1024.0 * kibibytes)
 }

@@ -50,6 +50,8 @@ pub struct Outcome {
     pub stability_limit_ps: f64,
     /// Largest energy imbalance over the largest work; `None` where nothing has done work.
     pub energy_error_relative: Option<f64>,
+    /// Largest memory of the last attempt; `None` where the system does not tell.
+    pub peak_memory_bytes: Option<u64>,
     /// Where the time of all attempts went.
     pub cost: Vec<Phase>,
 }

@@ -17,11 +17,21 @@ pub struct Shipped {
     pub tables: &'static [(&'static str, &'static str)],
 }
 
-pub static SHIPPED: [Shipped; 1] = [Shipped {
-    name: "quickstart.yaml",
-    text: include_str!("../../studies/quickstart.yaml"),
-    tables: &[],
-}];
+pub static SHIPPED: [Shipped; 2] = [
+    Shipped {
+        name: "quickstart.yaml",
+        text: include_str!("../../studies/quickstart.yaml"),
+        tables: &[],
+    },
+    Shipped {
+        name: "speed-against-error.yaml",
+        text: include_str!("../../studies/speed-against-error.yaml"),
+        tables: &[(
+            "speed-against-error/lammps.csv",
+            include_str!("../../studies/speed-against-error/lammps.csv"),
+        )],
+    },
+];
 
 /// Largest file that is read, in bytes; a study of a thousand cases is a hundredth of it.
 const LARGEST: u64 = 1_000_000;

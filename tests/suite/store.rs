@@ -22,6 +22,7 @@ fn outcome() -> Outcome {
         time_step_ps: 1e-3,
         stability_limit_ps: 1.5e-3,
         energy_error_relative: None,
+        peak_memory_bytes: None,
         cost: Vec::new(),
     }
 }

@@ -115,6 +115,7 @@ fn manifest(done: &store::Manifest) -> Manifest {
         stability_limit: Some(outcome.stability_limit_ps),
         steps: Some(outcome.steps),
         energy_error: outcome.energy_error_relative,
+        peak_memory: outcome.peak_memory_bytes.map(|bytes| bytes as f64),
         cost: outcome.cost.iter().map(phase).collect(),
     }
 }

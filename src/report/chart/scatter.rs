@@ -1,0 +1,112 @@
+//! Points over two logarithmic axes: what something costs against how wrong it is.
+
+use plotters::coord::Shift;
+use plotters::prelude::*;
+
+use super::{FAINT, FINE, INK, TEXT};
+use crate::report::{numbers, palette};
+
+/// Decades are too coarse for the ends of the axes: they reach this factor beyond the points.
+const ROOM: f64 = 1.6;
+
+/// Points with names, the best of them joined, and costs that have no error of their own.
+#[derive(Default)]
+pub struct Scatter {
+    pub points: Vec<Point>,
+    /// What is drawn as an upright line at its cost, such as the reference itself.
+    pub marks: Vec<(String, f64)>,
+}
+
+pub struct Point {
+    /// A short name that stands beside the point.
+    pub name: String,
+    pub x: f64,
+    pub y: f64,
+    /// Nothing else is both cheaper and nearer.
+    pub is_best: bool,
+}
+
+impl Scatter {
+    pub fn draw_on<DB: DrawingBackend>(
+        &self,
+        root: &DrawingArea<DB, Shift>,
+        [x, y]: [&str; 2],
+    ) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
+        root.fill(&WHITE)?;
+        let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
+        let small = ("sans-serif", TEXT * FINE * 3 / 4).into_font().color(&INK);
+        let costs = self.points.iter().map(|point| point.x);
+        let across = span(costs.chain(self.marks.iter().map(|mark| mark.1)));
+        let up = span(self.points.iter().map(|point| point.y));
+        let mut chart = ChartBuilder::on(root)
+            .margin_left(4 * FINE)
+            .margin_right(18 * FINE)
+            .margin_bottom(4 * FINE)
+            .margin_top(12 * FINE)
+            .x_label_area_size(48 * FINE)
+            .y_label_area_size(74 * FINE)
+            .build_cartesian_2d(across.log_scale(), up.clone().log_scale())?;
+        chart
+            .configure_mesh()
+            .x_labels(6)
+            .y_labels(6)
+            .max_light_lines(0)
+            .bold_line_style(FAINT.stroke_width(FINE as u32))
+            .axis_style(INK.stroke_width(FINE as u32))
+            .set_all_tick_mark_size(5 * FINE)
+            .label_style(font.clone())
+            .axis_desc_style(font)
+            .x_label_formatter(&|value| numbers::tick(*value))
+            .y_label_formatter(&|value| numbers::tick(*value))
+            .x_desc(x)
+            .y_desc(y)
+            .draw()?;
+        let [front, mark] = [palette::LINES[0], palette::LINES[1]].map(|[red, green, blue]| RGBColor(red, green, blue));
+        for (name, cost) in &self.marks {
+            let line = [(*cost, up.start), (*cost, up.end)];
+            chart.draw_series(DashedLineSeries::new(
+                line,
+                6 * FINE,
+                4 * FINE,
+                mark.stroke_width(2 * FINE as u32),
+            ))?;
+            let place = (*cost, up.end);
+            chart.draw_series([EmptyElement::at(place) + Text::new(name.clone(), (5 * FINE, 0), small.clone())])?;
+        }
+        let mut best: Vec<(f64, f64)> = self
+            .points
+            .iter()
+            .filter(|point| point.is_best)
+            .map(|point| (point.x, point.y))
+            .collect();
+        best.sort_by(|a, b| a.0.total_cmp(&b.0));
+        chart.draw_series([PathElement::new(best, front.stroke_width(2 * FINE as u32))])?;
+        for point in &self.points {
+            let style = match point.is_best {
+                true => front.filled(),
+                false => INK.stroke_width(FINE as u32),
+            };
+            let dot = Circle::new((0, 0), 4 * FINE, style);
+            let name = Text::new(point.name.clone(), (6 * FINE, -6 * FINE), small.clone());
+            chart.draw_series([EmptyElement::at((point.x, point.y)) + dot + name])?;
+        }
+        Ok(())
+    }
+
+    /// The best points in words.
+    pub fn describe(&self) -> String {
+        let best = self.points.iter().filter(|point| point.is_best);
+        let words = best.map(|point| {
+            let [x, y] = [point.x, point.y].map(|value| numbers::significant(value, 3));
+            format!("{}: {y} at {x}", point.name)
+        });
+        words.collect::<Vec<_>>().join("; ")
+    }
+}
+
+fn span(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
+    let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
+        (low.min(value), high.max(value))
+    });
+    low / ROOM..high * ROOM
+}

@@ -1,0 +1,169 @@
+//! Speed against error: what every case costs beside how far it is from the finest of the same specimen.
+
+use super::chart::scatter::{Point, Scatter};
+use super::chart::{Chart, Content};
+use super::units::PERCENT;
+use super::{Analysed, Difference};
+use crate::plan::Comparison;
+
+/// Fewer cases than this besides the reference are no study of economies; the comparison side by side says it all.
+const FEWEST: usize = 4;
+
+/// Errors below this (in percent) count as this: probes do not resolve them.
+const LEAST_PERCENT: f64 = 0.01;
+
+/// The column that holds the cost.
+pub const COST: &str = "core_seconds_per_ps";
+
+/// What a case may be wrong in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Quantity {
+    Stress,
+    Initiation,
+    Speed,
+    Arrival,
+    StressIntensity,
+}
+
+impl Quantity {
+    pub const ALL: [Self; 5] = [
+        Self::Stress,
+        Self::Initiation,
+        Self::Speed,
+        Self::Arrival,
+        Self::StressIntensity,
+    ];
+
+    /// Relative, without sign.
+    pub fn error(self, difference: &Difference) -> Option<f64> {
+        let error = match self {
+            Self::Stress => difference.stress,
+            Self::Initiation => difference.initiation_strain,
+            Self::Speed => difference.speed,
+            Self::Arrival => difference.arrival,
+            Self::StressIntensity => difference.stress_intensity,
+        };
+        error.map(f64::abs)
+    }
+
+    pub fn column(self) -> &'static str {
+        match self {
+            Self::Stress => "stress_error",
+            Self::Initiation => "initiation_strain_error",
+            Self::Speed => "crack_speed_error",
+            Self::Arrival => "wave_arrival_error",
+            Self::StressIntensity => "k_ic_error",
+        }
+    }
+
+    fn words(self) -> &'static str {
+        match self {
+            Self::Stress => "stress before initiation",
+            Self::Initiation => "strain at initiation",
+            Self::Speed => "crack speed",
+            Self::Arrival => "wave arrival",
+            Self::StressIntensity => "K at initiation",
+        }
+    }
+}
+
+/// A case that is measured against another, or others against it.
+pub struct Row<'a> {
+    /// Its number in the figures.
+    pub number: u64,
+    pub case: &'a Analysed<'a>,
+    pub reference: &'a Analysed<'a>,
+    pub cost: f64,
+}
+
+impl Row<'_> {
+    pub fn error(&self, quantity: Quantity) -> Option<f64> {
+        quantity.error(&self.case.difference)
+    }
+
+    /// The error in percent as far as it can be told, which is never nothing.
+    fn resolved_percent(&self, quantity: Quantity) -> Option<f64> {
+        Some((self.error(quantity)? * PERCENT).max(LEAST_PERCENT))
+    }
+
+    /// Whether no other case of the specimen is at least as cheap and nearer, or cheaper and as near.
+    pub fn is_best(&self, rows: &[Row], quantity: Quantity) -> bool {
+        let Some(error) = self.resolved_percent(quantity) else {
+            return false;
+        };
+        let beats = |other: &Row| {
+            std::ptr::eq(other.reference, self.reference)
+                && other.resolved_percent(quantity).is_some_and(|theirs| {
+                    theirs <= error && other.cost <= self.cost && (theirs < error || other.cost < self.cost)
+                })
+        };
+        !rows.iter().any(beats)
+    }
+}
+
+/// The cases that have a reference and a cost, the references among them; empty where there are too few to learn from.
+pub fn rows<'a>(cases: &'a [Analysed<'a>]) -> Vec<Row<'a>> {
+    let measured = cases
+        .iter()
+        .filter_map(|case| Some((case, &cases[case.reference?], case.core_seconds_a_picosecond()?)));
+    let rows: Vec<Row> = measured
+        .zip(1..)
+        .map(|((case, reference, cost), number)| Row {
+            number,
+            case,
+            reference,
+            cost,
+        })
+        .collect();
+    let others = rows.iter().filter(|row| !std::ptr::eq(row.case, row.reference));
+    if others.count() < FEWEST { Vec::new() } else { rows }
+}
+
+/// A chart for each quantity in which some case differs.
+pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
+    let rows = rows(cases);
+    let chart =
+        |quantity: Quantity| {
+            let points: Vec<Point> = rows
+                .iter()
+                .filter_map(|row| {
+                    Some(Point {
+                        name: row.number.to_string(),
+                        x: row.cost,
+                        y: row.resolved_percent(quantity)?,
+                        is_best: row.is_best(&rows, quantity),
+                    })
+                })
+                .collect();
+            (!points.is_empty()).then(|| Chart {
+            id: format!("speed-against-error-{}", quantity.column().trim_end_matches("_error").replace('_', "-")),
+            detail: false,
+            table: "speed_against_error",
+            title: format!("Speed against error: {}", quantity.words()),
+            caption: format!(
+                "Error of the {} against the cost of a case; the numbers are those of the table. Filled and joined are \
+                 the cases that no other one beats in both. Errors of {LEAST_PERCENT} % and less count as that. \
+                 Upright lines: what the reference itself costs, and other programs.",
+                quantity.words()
+            ),
+            x: "cost (core-seconds a simulated ps)".to_owned(),
+            y: format!("error of {} (%)", quantity.words()),
+            content: Content::Points(Scatter {
+                points,
+                marks: marks(&rows, comparisons),
+            }),
+        })
+        };
+    Quantity::ALL.into_iter().filter_map(chart).collect()
+}
+
+/// The references, and what files to compare with say of their cost.
+fn marks(rows: &[Row], comparisons: &[Comparison]) -> Vec<(String, f64)> {
+    let references = rows.iter().filter(|row| std::ptr::eq(row.case, row.reference));
+    let mut marks: Vec<(String, f64)> = references.map(|row| (row.case.name().to_owned(), row.cost)).collect();
+    for comparison in comparisons {
+        let costs = comparison.values.iter().filter(|expected| expected.column == COST);
+        marks.extend(costs.map(|expected| (comparison.name.clone(), expected.value)));
+    }
+    marks
+}
