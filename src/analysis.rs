@@ -46,7 +46,7 @@ pub fn analyse(series: &Series, setting: &Setting) -> Findings {
     };
     let initiation = initiation::initiation(&history.tips, series, setting);
     let window = speed::window(series, setting);
-    let speeds = speed::speeds(&history.tips, series, initiation, window);
+    let speeds = speed::speeds(&history.tips, series, initiation, window, setting);
     let before = initiation.and_then(|start| start.probe.checked_sub(1));
     let near_tip = before.and_then(|probe| stress_intensity::near_tip(series, probe, history.tips[probe], setting));
     let from_j = before.and_then(|probe| stress_intensity::from_j(series, probe, setting));

@@ -122,8 +122,11 @@ fn analysed(study: &Study) -> Vec<Analysed<'_>> {
                 .unwrap_or_default()
         })
         .collect();
-    let pairs = study.cases.iter().zip(&findings);
-    let candidates: Vec<Option<Candidate>> = pairs.map(|(case, findings)| candidate(case, findings)).collect();
+    let conditions: Vec<String> = study.cases.iter().map(conditions).collect();
+    let parts = study.cases.iter().zip(&findings).zip(&conditions);
+    let candidates: Vec<Option<Candidate>> = parts
+        .map(|((case, findings), conditions)| candidate(case, findings, conditions))
+        .collect();
     let references = comparison::references(&candidates);
     let differences: Vec<Difference> = (0..candidates.len())
         .map(|index| {
@@ -147,14 +150,27 @@ fn analysed(study: &Study) -> Vec<Analysed<'_>> {
 }
 
 /// A case takes part in the comparison when it ran to its end.
-fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings) -> Option<Candidate<'a>> {
+fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings, conditions: &'a str) -> Option<Candidate<'a>> {
     let usable = case.failure.is_none() && !case.series.probes.is_empty();
     let setting = case.setting.as_ref().filter(|_| usable)?;
     Some(Candidate {
         series: &case.series,
         setting,
         findings,
+        conditions,
     })
+}
+
+/// How a specimen is held and set in motion, which its sizes and constants do not tell.
+fn conditions(case: &CaseResult) -> String {
+    const KEYS: [&str; 4] = [
+        "specimen.grips",
+        "loading.strain-rate.mode",
+        "loading.strain-rate.ramp",
+        "run.relax.strain",
+    ];
+    let chosen = case.choices.iter().filter(|(key, _)| KEYS.contains(&key.as_str()));
+    chosen.map(|(key, value)| format!("{key}: {value}\n")).collect()
 }
 
 /// Removes what an earlier report of more cases may have left and this one does not write again.

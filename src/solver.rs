@@ -26,6 +26,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 use crate::analysis::crack::Tracker;
+use crate::analysis::initiation;
 use crate::analysis::series::{BondEvent, Probe, Setting};
 use crate::forces::{ForceError, Forces, Measure, Summation};
 use crate::integrator;
@@ -276,6 +277,7 @@ impl Solver {
             Err(RelaxationError::Interrupted) => return Ok(false),
             Err(error) => return Err(SolverError::NoRest(error)),
         }
+        self.refuse_a_crack_that_ran()?;
         self.loading.start(self.forces.mesh(), &mut self.state);
         let start = self
             .forces
@@ -287,6 +289,22 @@ impl Solver {
         self.time_step = self.settings.time_step.choose(self.stability_limit)?;
         self.cost.book(Phase::SetUp, &mut clock);
         Ok(true)
+    }
+
+    /// A crack that has set out before the motion begins would be taken for the notch.
+    fn refuse_a_crack_that_ran(&self) -> Result<(), SolverError> {
+        let Some(mut tracker) = Tracker::new(&self.setting) else {
+            return Ok(());
+        };
+        let broken = self.forces.broken_bonds(&self.state.position);
+        let events = probe::bond_events(&[], &broken, 0);
+        events.iter().for_each(|event| tracker.apply(event));
+        let [notch, tip] = [self.setting.crack_length, tracker.tip().x];
+        if tip - notch > initiation::threshold(&self.setting) {
+            let strain = self.strain();
+            return Err(SolverError::RanWhileResting { notch, tip, strain });
+        }
+        Ok(())
     }
 
     fn ending(&self) -> Option<Ending> {

@@ -16,6 +16,8 @@ pub struct Candidate<'a> {
     pub series: &'a Series,
     pub setting: &'a Setting,
     pub findings: &'a Findings,
+    /// What else two runs of the same specimen must have in common, in words.
+    pub conditions: &'a str,
 }
 
 /// Differences of one case from its reference, relative (0.01 is 1 %).
@@ -37,7 +39,7 @@ pub struct Difference {
 /// For each case the one that it is measured against: of those with the same specimen and loading, the one with the
 /// most nodes (the first of equals). A case has itself when it is the reference of others, and `None` when alone.
 pub fn references(cases: &[Option<Candidate>]) -> Vec<Option<usize>> {
-    let alike = |a: &Candidate, b: &Candidate| same_specimen(a.setting, b.setting);
+    let alike = |a: &Candidate, b: &Candidate| a.conditions == b.conditions && same_specimen(a.setting, b.setting);
     cases
         .iter()
         .map(|case| {

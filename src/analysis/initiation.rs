@@ -25,15 +25,16 @@ pub fn threshold(setting: &Setting) -> f64 {
 }
 
 /// The beginning of the advance that takes the crack beyond the threshold and never back to the notch: where the tip had
-/// stood still for longer than a crack at [`ARREST_SPEED`] needs for a spacing. The beginning does not depend on the size
-/// of the elements, however far an advance must reach to count.
+/// stood still for longer than a crack at [`ARREST_SPEED`] needs for one edge of the elements at the crack, which open
+/// one edge at a time.
 pub fn initiation(tips: &[Tip], series: &Series, setting: &Setting) -> Option<Initiation> {
     let notch = tips.first()?.arc_length;
     let last_within = |reach: f64| tips.iter().rposition(|tip| tip.arc_length <= notch + reach);
     let left = last_within(ADVANCE_SPACINGS * setting.spacing)? + 1;
     let far = notch + threshold(setting);
     let there = left + tips[left..].iter().position(|tip| tip.arc_length > far)?;
-    let patience = setting.spacing / (ARREST_SPEED * setting.rayleigh_speed);
+    let edge = f64::from(setting.element_at_crack) * setting.spacing;
+    let patience = edge / (ARREST_SPEED * setting.rayleigh_speed);
     let time = |probe: usize| series.probes[probe].time;
     let mut start = there;
     for probe in (last_within(0.0)? + 1..there).rev() {

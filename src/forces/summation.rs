@@ -53,9 +53,15 @@ impl Summation {
         bonds.sum()
     }
 
-    /// Whether an interface that has hardly opened is looked at in fewer places than one that has.
-    fn samples(self) -> bool {
-        matches!(self, Self::Gauss { .. })
+    /// Gap of two triangles, in spacings, up to which their strings are looked at in few places: beyond, the energy along a
+    /// string that bends open is no longer close to a polynomial. At this gap the sum is off by some 1e-4 of a bond's
+    /// energy, and that is by how much the energy jumps there. `None`: strings are always looked at alike.
+    fn sampled_up_to(self) -> Option<f64> {
+        match self {
+            Self::Exact | Self::Nodal => None,
+            Self::Gauss { points: 1 } => Some(0.005),
+            Self::Gauss { .. } => Some(0.05),
+        }
     }
 }
 
@@ -76,8 +82,8 @@ pub struct SampledString {
 /// The strings of every kind of interface under a rule.
 pub struct SampledStrings {
     fine: Vec<Vec<SampledString>>,
-    /// While an interface has hardly opened; `None`: always as `fine`.
-    coarse: Option<Vec<Vec<SampledString>>>,
+    /// Those of interfaces that have hardly opened, and up to which gap, in spacings; `None`: always as `fine`.
+    coarse: Option<(f64, Vec<Vec<SampledString>>)>,
 }
 
 impl SampledStrings {
@@ -92,29 +98,23 @@ impl SampledStrings {
             });
             all.collect()
         };
-        if summation.samples() {
-            Self {
+        match summation.sampled_up_to() {
+            Some(gap) => Self {
                 fine: kinds(Summation::Exact),
-                coarse: Some(kinds(summation)),
-            }
-        } else {
-            Self {
+                coarse: Some((gap, kinds(summation))),
+            },
+            None => Self {
                 fine: kinds(summation),
                 coarse: None,
-            }
+            },
         }
     }
 
     /// Squared gap of two triangles, nm^2, up to which they count as hardly open.
-    ///
-    /// Along a string that bends open the energy is no longer close to a polynomial: a gap of a twentieth of a spacing at
-    /// one end changes the sum of two Gauss points by 1e-4 of a bond, one of a fifth by some hundredths. The choice
-    /// depends on positions alone, so that the energy remains a function of them.
     #[inline(always)]
     pub fn hardly_open(&self, spacing: f64) -> f64 {
-        const HARDLY_OPEN: f64 = 0.05;
         match self.coarse {
-            Some(_) => (HARDLY_OPEN * spacing) * (HARDLY_OPEN * spacing),
+            Some((gap, _)) => (gap * spacing) * (gap * spacing),
             None => f64::INFINITY,
         }
     }
@@ -123,7 +123,7 @@ impl SampledStrings {
     #[inline(always)]
     pub fn of(&self, kind: u32, hardly_open: bool) -> &[SampledString] {
         match &self.coarse {
-            Some(coarse) if hardly_open => &coarse[kind as usize],
+            Some((_, coarse)) if hardly_open => &coarse[kind as usize],
             _ => &self.fine[kind as usize],
         }
     }

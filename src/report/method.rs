@@ -37,7 +37,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
             format!(
                 "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings and one element edge beyond \
                  the notch, never to come back to less than {ADVANCE_SPACINGS} spacings: before it the tip stood still \
-                 for longer than a crack at {ARREST_SPEED} c_R needs for a spacing."
+                 for longer than a crack at {ARREST_SPEED} c_R needs for one edge of the elements there."
             ),
         ),
         (

@@ -1,15 +1,15 @@
 //! Speed against error: what every case costs beside how far it is from the finest of the same specimen.
 
-use super::chart::scatter::{Point, Scatter};
+use super::chart::scatter::{Mark, Point, Scatter};
 use super::chart::{Chart, Content};
 use super::units::PERCENT;
-use super::{Analysed, Difference};
+use super::{Analysed, Difference, summary};
 use crate::plan::Comparison;
 
 /// Fewer cases than this besides the reference are no study of economies; the comparison side by side says it all.
 const FEWEST: usize = 4;
 
-/// Errors below this (in percent) count as this: probes do not resolve them.
+/// Errors below this (in percent) count as this, and those of moments that one probe resolves as what a probe is of them.
 const LEAST_PERCENT: f64 = 0.01;
 
 /// The column that holds the cost.
@@ -83,7 +83,22 @@ impl Row<'_> {
 
     /// The error in percent as far as it can be told, which is never nothing.
     fn resolved_percent(&self, quantity: Quantity) -> Option<f64> {
-        Some((self.error(quantity)? * PERCENT).max(LEAST_PERCENT))
+        let probe = match quantity {
+            Quantity::Initiation | Quantity::StressIntensity => summary::between_probes(self.case, self.reference),
+            Quantity::Arrival => summary::between_arrivals(self.reference),
+            Quantity::Stress | Quantity::Speed => None,
+        };
+        let least = (probe.unwrap_or(0.0) * PERCENT).max(LEAST_PERCENT);
+        Some((self.error(quantity)? * PERCENT).max(least))
+    }
+
+    /// Number of the reference among the rows: cases of one specimen have the same.
+    fn group(&self, rows: &[Row]) -> usize {
+        let references = rows.iter().filter(|row| std::ptr::eq(row.case, row.reference));
+        references
+            .into_iter()
+            .position(|row| std::ptr::eq(row.case, self.reference))
+            .unwrap_or_default()
     }
 
     /// Whether no other case of the specimen is at least as cheap and nearer, or cheaper and as near.
@@ -131,6 +146,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
                         name: row.number.to_string(),
                         x: row.cost,
                         y: row.resolved_percent(quantity)?,
+                        group: row.group(&rows),
                         is_best: row.is_best(&rows, quantity),
                     })
                 })
@@ -142,7 +158,8 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
             title: format!("Speed against error: {}", quantity.words()),
             caption: format!(
                 "Error of the {} against the cost of a case; the numbers are those of the table. Filled and joined are \
-                 the cases that no other one beats in both. Errors of {LEAST_PERCENT} % and less count as that. \
+                 the cases that no other one beats in both. Errors that the probes cannot tell are drawn at \
+                 what they can. Each material has its own colour and reference. \
                  Upright lines: what the reference itself costs, and other programs.",
                 quantity.words()
             ),
@@ -158,12 +175,23 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
 }
 
 /// The references, and what files to compare with say of their cost.
-fn marks(rows: &[Row], comparisons: &[Comparison]) -> Vec<(String, f64)> {
+fn marks(rows: &[Row], comparisons: &[Comparison]) -> Vec<Mark> {
     let references = rows.iter().filter(|row| std::ptr::eq(row.case, row.reference));
-    let mut marks: Vec<(String, f64)> = references.map(|row| (row.case.name().to_owned(), row.cost)).collect();
+    let mut marks: Vec<Mark> = references
+        .enumerate()
+        .map(|(group, row)| Mark {
+            name: row.case.name().to_owned(),
+            x: row.cost,
+            group: Some(group),
+        })
+        .collect();
     for comparison in comparisons {
         let costs = comparison.values.iter().filter(|expected| expected.column == COST);
-        marks.extend(costs.map(|expected| (comparison.name.clone(), expected.value)));
+        marks.extend(costs.map(|expected| Mark {
+            name: comparison.name.clone(),
+            x: expected.value,
+            group: None,
+        }));
     }
     marks
 }

@@ -113,9 +113,8 @@ fn against(case: &Analysed, reference: &Analysed) -> Option<String> {
         None => start(case)?.replacen("In", "in", 1).replacen("the crack", "it", 1),
     };
     let nodes = |case: &Analysed| case.result.setting.as_ref().map(|setting| setting.nodes as f64);
-    let wall = |case: &Analysed| case.result.manifest.wall_seconds.filter(|&wall| wall > 0.0);
     let times = |of: &dyn Fn(&Analysed) -> Option<f64>| Some(of(reference)? / of(case)?);
-    if let Some((nodes, time)) = times(&nodes).zip(times(&wall)) {
+    if let Some((nodes, time)) = times(&nodes).zip(times(&|case| case.core_seconds_a_picosecond())) {
         let nodes = match nodes {
             ..ALIKE => "as many nodes".to_owned(),
             fewer => format!("{} times fewer nodes", significant(fewer, 2)),
@@ -131,13 +130,20 @@ fn against(case: &Analysed, reference: &Analysed) -> Option<String> {
 }
 
 /// Strain between the probes at which two cracks start, over the strain of the second: what cannot be told apart.
-fn between_probes(case: &Analysed, reference: &Analysed) -> Option<f64> {
+pub fn between_probes(case: &Analysed, reference: &Analysed) -> Option<f64> {
     let gap = |case: &Analysed| {
         let start = case.findings.initiation?;
         let before = case.result.series.probes.get(start.probe.checked_sub(1)?)?;
         Some(start.strain - before.strain)
     };
     Some(gap(case)?.max(gap(reference)?) / reference.findings.initiation?.strain)
+}
+
+/// What one probe is of the earliest wave that a case has measured.
+pub fn between_arrivals(case: &Analysed) -> Option<f64> {
+    let earliest = case.findings.arrivals.iter().filter_map(|arrival| arrival.measured);
+    let [first, second] = case.result.series.probes.first_chunk()?;
+    Some((second.time - first.time) / earliest.min_by(f64::total_cmp)?)
 }
 
 /// The choices that are not the same in all cases.
@@ -264,12 +270,19 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
             or_reference(case, misfit(case.difference.speed))
         }),
         row(cases, "arrival of waves, at most", |case| {
-            or_reference(case, misfit(case.difference.arrival))
+            let resolved = case.reference.and_then(|index| between_arrivals(&cases[index]));
+            let text = case.difference.arrival.map(|share| match resolved {
+                Some(gap) if share <= ROUNDING * gap => {
+                    format!("none within a probe ({} %)", significant(gap * PERCENT, 2))
+                }
+                _ => format!("{} %", significant(share * PERCENT, 2)),
+            });
+            or_reference(case, text)
         }),
         row(cases, "K at initiation, J-integral", |case| {
             or_reference(case, case.difference.stress_intensity.map(signed_percent))
         }),
-        row(cases, "times less wall time", |case| {
+        row(cases, "times fewer core-seconds a simulated ps", |case| {
             or_reference(case, times_faster(case, cases))
         }),
         row(cases, "released at the cutoff (of the work)", |case| {
@@ -286,7 +299,6 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
 }
 
 fn times_faster(case: &Analysed, cases: &[Analysed]) -> Option<String> {
-    let reference = cases[case.reference?].result.manifest.wall_seconds?;
-    let own = case.result.manifest.wall_seconds.filter(|&wall| wall > 0.0)?;
-    Some(significant(reference / own, 2))
+    let reference = cases[case.reference?].core_seconds_a_picosecond()?;
+    Some(significant(reference / case.core_seconds_a_picosecond()?, 2))
 }

@@ -21,6 +21,11 @@ pub enum SetupError {
         steps: u64,
         time_step: f64,
     },
+    /// ps
+    TooFewProbes {
+        every: f64,
+        time: f64,
+    },
     FasterThanSound {
         speed: f64,
         sound: f64,
@@ -76,6 +81,14 @@ impl SetupError {
                 "look at the strain rate, the mass and `until`",
             )
             .with(Subject::Rate, "at this rate"),
+            Self::TooFewProbes { every, time } => Refusal::new(
+                Subject::Probes,
+                format!(
+                    "with a probe every {every:.3} ps a run of about {time:.3} ps is looked at too rarely to tell when \
+                     anything happens"
+                ),
+                format!("probe every {:.2} ps or more often", time / 100.0),
+            ),
             Self::FasterThanSound { speed, sound } => Refusal::new(
                 Subject::Rate,
                 format!("the grips would part at {speed:.3} nm/ps each, faster than sound ({sound:.3} nm/ps)"),

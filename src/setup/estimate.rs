@@ -40,6 +40,9 @@ const SECONDS_AN_EDGE_SITE: f64 = 1.5e-8;
 /// More steps than this are a slip in a rate, a mass or an end: they would take years.
 const MOST_STEPS: u64 = 1_000_000_000_000;
 
+/// A run that is looked at less often than this has no curves and no moments.
+const FEWEST_PROBES: f64 = 10.0;
+
 /// The estimate of a case; an error is physical nonsense that only the mesh or the material reveals.
 pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
     let material = material(case)?;
@@ -56,6 +59,11 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
         .steps(0, 0.0, time_step, |strain| (strain - start) / rate);
     if !(1..MOST_STEPS).contains(&steps) {
         return Err(SetupError::Endless { steps, time_step });
+    }
+    let time = steps as f64 * time_step;
+    if time < FEWEST_PROBES * case.probes.every {
+        let every = case.probes.every;
+        return Err(SetupError::TooFewProbes { every, time });
     }
     // The constants are those of nearest neighbours, three bonds a site.
     let reach = material.interaction.cutoff() / material.spacing;

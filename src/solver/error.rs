@@ -54,6 +54,12 @@ pub enum SolverError {
     NoStart(ForceError),
     #[error("`relax` before the run: {0}")]
     NoRest(RelaxationError),
+    #[error(
+        "the crack ran from {notch:.3} to {tip:.3} nm while the specimen came to rest under {:.3} % strain: it does not \
+         hold this load; start from a lower strain in `run.relax`",
+        100.0 * strain
+    )]
+    RanWhileResting { notch: f64, tip: f64, strain: f64 },
     #[error("this is no checkpoint of this specimen: {0}")]
     OtherSpecimen(&'static str),
 }

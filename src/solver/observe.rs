@@ -6,6 +6,7 @@ use super::j_integral::Rings;
 use super::{Measure, Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe, temperature};
 use crate::analysis::crack::Tracker;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
+use crate::forces::Summation;
 
 impl Solver {
     /// Gives observers what is due; at the end of a run all that is not yet given.
@@ -105,8 +106,12 @@ impl Solver {
         }
     }
 
-    /// J in the rings around the tip; not a number where there is no tip or no room for rings.
+    /// J in the rings around the tip; not a number where there is no tip or no room for rings, and where bonds of nodes
+    /// stand for all others, so that the stress of the bonds is not what moves the nodes.
     fn j_integral(&mut self) -> [f64; RINGS] {
+        if self.settings.summation == Summation::Nodal {
+            return [f64::NAN; RINGS];
+        }
         let mesh = self.forces.mesh();
         let tip = self.tracker.as_ref().map(Tracker::tip);
         match tip.and_then(|tip| Rings::around(tip, mesh, &self.setting)) {

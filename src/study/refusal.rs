@@ -28,6 +28,7 @@ pub enum Subject {
     /// The strain or the time that ends the run.
     Until,
     TimeStep,
+    Probes,
 }
 
 impl fmt::Display for Refusal {
@@ -84,6 +85,7 @@ impl Subject {
                 values.strain.place().or(values.time.place()).or(until.place())
             }
             Self::TimeStep => case.run.right()?.time_step.place().or(case.run.place()),
+            Self::Probes => case.probes.right()?.every.place().or(case.probes.place()),
         }
     }
 }

@@ -310,6 +310,7 @@ fn cases_are_compared_with_the_one_of_most_nodes_on_the_same_specimen() {
                 series,
                 setting,
                 findings,
+                conditions: "",
             })
         })
         .collect();

@@ -14,7 +14,14 @@ const ROOM: f64 = 1.6;
 pub struct Scatter {
     pub points: Vec<Point>,
     /// What is drawn as an upright line at its cost, such as the reference itself.
-    pub marks: Vec<(String, f64)>,
+    pub marks: Vec<Mark>,
+}
+
+pub struct Mark {
+    pub name: String,
+    pub x: f64,
+    /// Whose reference it is.
+    pub group: Option<usize>,
 }
 
 pub struct Point {
@@ -22,7 +29,9 @@ pub struct Point {
     pub name: String,
     pub x: f64,
     pub y: f64,
-    /// Nothing else is both cheaper and nearer.
+    /// Points of one group have one colour, and their best ones are joined.
+    pub group: usize,
+    /// Nothing else of its group is both cheaper and nearer.
     pub is_best: bool,
 }
 
@@ -36,7 +45,7 @@ impl Scatter {
         let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
         let small = ("sans-serif", TEXT * FINE * 3 / 4).into_font().color(&INK);
         let costs = self.points.iter().map(|point| point.x);
-        let across = span(costs.chain(self.marks.iter().map(|mark| mark.1)));
+        let across = span(costs.chain(self.marks.iter().map(|mark| mark.x)));
         let up = span(self.points.iter().map(|point| point.y));
         let mut chart = ChartBuilder::on(root)
             .margin_left(4 * FINE)
@@ -61,30 +70,31 @@ impl Scatter {
             .x_desc(x)
             .y_desc(y)
             .draw()?;
-        let [front, mark] = [palette::LINES[0], palette::LINES[1]].map(|[red, green, blue]| RGBColor(red, green, blue));
-        for (name, cost) in &self.marks {
-            let line = [(*cost, up.start), (*cost, up.end)];
-            chart.draw_series(DashedLineSeries::new(
-                line,
-                6 * FINE,
-                4 * FINE,
-                mark.stroke_width(2 * FINE as u32),
-            ))?;
-            let place = (*cost, up.end);
-            chart.draw_series([EmptyElement::at(place) + Text::new(name.clone(), (5 * FINE, 0), small.clone())])?;
+        for (level, mark) in self.marks.iter().enumerate() {
+            let line = [(mark.x, up.start), (mark.x, up.end)];
+            let stroke = mark.group.map_or(INK, color).stroke_width(2 * FINE as u32);
+            chart.draw_series(DashedLineSeries::new(line, 6 * FINE, 4 * FINE, stroke))?;
+            // Names of marks that stand close are on lines of their own.
+            let below = (level as i32 % 4) * TEXT * FINE;
+            let name = Text::new(mark.name.clone(), (5 * FINE, below), small.clone());
+            chart.draw_series([EmptyElement::at((mark.x, up.end)) + name])?;
         }
-        let mut best: Vec<(f64, f64)> = self
+        let groups = self
             .points
             .iter()
-            .filter(|point| point.is_best)
-            .map(|point| (point.x, point.y))
-            .collect();
-        best.sort_by(|a, b| a.0.total_cmp(&b.0));
-        chart.draw_series([PathElement::new(best, front.stroke_width(2 * FINE as u32))])?;
+            .map(|point| point.group)
+            .max()
+            .map_or(0, |last| last + 1);
+        for group in 0..groups {
+            let best = self.points.iter().filter(|point| point.group == group && point.is_best);
+            let mut best: Vec<(f64, f64)> = best.map(|point| (point.x, point.y)).collect();
+            best.sort_by(|a, b| a.0.total_cmp(&b.0));
+            chart.draw_series([PathElement::new(best, color(group).stroke_width(2 * FINE as u32))])?;
+        }
         for point in &self.points {
             let style = match point.is_best {
-                true => front.filled(),
-                false => INK.stroke_width(FINE as u32),
+                true => color(point.group).filled(),
+                false => color(point.group).stroke_width(FINE as u32),
             };
             let dot = Circle::new((0, 0), 4 * FINE, style);
             let name = Text::new(point.name.clone(), (6 * FINE, -6 * FINE), small.clone());
@@ -102,6 +112,11 @@ impl Scatter {
         });
         words.collect::<Vec<_>>().join("; ")
     }
+}
+
+fn color(group: usize) -> RGBColor {
+    let [red, green, blue] = palette::LINES[group % palette::LINES.len()];
+    RGBColor(red, green, blue)
 }
 
 fn span(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
