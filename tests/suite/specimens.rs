@@ -149,6 +149,7 @@ pub fn states(mesh: &Mesh) -> Vec<(&'static str, Planes)> {
     let closed = displaced(mesh, |[x, y]| {
         [0.2 * (y - middle).signum() + 0.0 * x, -0.04 * (y - middle)]
     });
+    let slid = displaced(mesh, |[_, y]| [if y > middle { 0.45 } else { 0.0 }, 0.0]);
     let mut rubble = mesh.node_positions();
     for (number, element) in mesh.elements.iter().enumerate() {
         let drift = [0, 1].map(|_| 0.8 * mesh.spacing * noise.next());
@@ -163,6 +164,7 @@ pub fn states(mesh: &Mesh) -> Vec<(&'static str, Planes)> {
         ("shaken", shaken),
         ("cracked", cracked),
         ("pressed together and slid", closed),
+        ("slid rigidly", slid),
         ("rubble", rubble),
     ]
 }

@@ -37,7 +37,7 @@ fn a_crack_in_mode_i_runs_slower_than_surface_waves() {
     let setting = solver.setting();
     let history = history(&series, setting).expect("there is a crack");
     let start = initiation(&history.tips, &series, setting);
-    let speeds = speeds(&history.tips, &series, start, window(&series, setting));
+    let speeds = speeds(&history.tips, &series, start, window(&series, setting), setting);
     let fastest = speeds
         .into_iter()
         .flatten()
