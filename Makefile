@@ -41,7 +41,7 @@ speed-against-error: build
 	mkdir -p reports/speed-against-error
 	rm -rf reports/speed-against-error/tables reports/speed-against-error/figures
 	cp -r $(TARGET)/results/speed-against-error/tables $(TARGET)/results/speed-against-error/figures reports/speed-against-error
-	rm reports/speed-against-error/figures/*.png reports/speed-against-error/tables/stress_*.csv
+	rm reports/speed-against-error/figures/*.png reports/speed-against-error/tables/stress_*.csv reports/speed-against-error/tables/crack_speed.csv
 	grep -v figures/slab- $(TARGET)/results/speed-against-error/report.md > reports/speed-against-error/report.md
 
 check: lint test
