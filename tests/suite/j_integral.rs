@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use cgaft::lattice::triangular::SITE_AREA;
 use cgaft::material::{Elasticity, Material};
 use cgaft::mesh::region::{Region, Shape};
 use cgaft::mesh::sites::Layout;
@@ -113,6 +114,48 @@ fn the_field_of_a_crack_gives_its_energy_release_rate_on_any_mesh() {
                     found.map(|j| j / expected)
                 );
             }
+        }
+    }
+}
+
+/// Sites summed instead of an integral, and lumped masses, at the inner ring of 32 spacings.
+const MOTION: f64 = 2e-2;
+
+#[test]
+fn what_accelerates_a_strained_lattice_counts_with_its_displacement_gradient() {
+    const STRAIN: f64 = 0.01;
+    let material = nearest_neighbours();
+    for (name, mesh, _) in meshes(&material, None) {
+        let mut state = State::at_rest(displaced(&mesh, |[x, _]| [STRAIN * x, 0.0]), mesh.lumped_masses());
+        // The same force on every site.
+        state.force[0].clone_from(&state.mass);
+        let found = JIntegral::new(&mesh, material).evaluate(&mesh, &state, rings(&mesh));
+        let sites = |radius: f64| PI * (radius * RADIUS).powi(2) / SITE_AREA;
+        for (j, [inner, outer]) in found.into_iter().zip([[0.4, 0.6], [0.6, 0.8], [0.8, 1.0]]) {
+            // q falls linearly with the square of the radius.
+            let expected = STRAIN * 0.5 * (sites(inner) + sites(outer));
+            assert!((j / expected - 1.0).abs() < MOTION, "{name}: {found:?}, {expected}");
+        }
+    }
+}
+
+#[test]
+fn motion_without_strain_drives_no_crack() {
+    let material = nearest_neighbours();
+    for (name, mesh, _) in meshes(&material, None) {
+        let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
+        let x = (mesh.sites.left() + CRACK) * mesh.spacing;
+        let radius = RADIUS * material.spacing;
+        for node in 0..state.nodes() {
+            let place = (state.position[0][node] - x) / radius;
+            state.velocity[0][node] = place;
+            state.velocity[1][node] = 0.5 + place;
+        }
+        let found = JIntegral::new(&mesh, material).evaluate(&mesh, &state, rings(&mesh));
+        // Kinetic energy density times radius: what either of the two terms would leave alone.
+        let scale = 0.5 / (SITE_AREA * material.spacing.powi(2)) * radius;
+        for j in found {
+            assert!(j.abs() < MOTION * scale, "{name}: {found:?} of {scale}");
         }
     }
 }
