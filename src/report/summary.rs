@@ -233,14 +233,18 @@ fn results(cases: &[Analysed]) -> Vec<Row> {
                 significant(fit.error * MEGAPASCAL_ROOT_METRE, 2)
             ))
         }),
-        row(cases, "K at initiation, J-integral (MPa √m)", |case| {
-            let j = case.findings.from_j?;
-            Some(format!(
-                "{} ± {}",
-                root_metre(j.value),
-                significant(j.spread * MEGAPASCAL_ROOT_METRE, 2)
-            ))
-        }),
+        row(
+            cases,
+            "K at initiation, J-integral, ± over its rings (MPa √m)",
+            |case| {
+                let j = case.findings.from_j?;
+                Some(format!(
+                    "{} ± {}",
+                    root_metre(j.value),
+                    significant(j.spread * MEGAPASCAL_ROOT_METRE, 2)
+                ))
+            },
+        ),
         row(cases, "K of Griffith (MPa √m)", |case| {
             Some(root_metre(case.findings.griffith?))
         }),
@@ -293,7 +297,8 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
             ))
         }),
         row(cases, "energy error (of the work)", |case| {
-            Some(significant(case.result.manifest.energy_error?, 2))
+            let share = case.result.manifest.energy_error?;
+            Some(format!("{} %", significant(share * PERCENT, 2)))
         }),
     ]
 }
