@@ -18,9 +18,11 @@ use crate::verify::table::{Chapter, Gate};
 /// Motion so slow leaves central differences an error of 1e-10. The work of the grips summed by any rule poorer than the
 /// trapezoidal one would be off by one step in 1e5.
 const WHOLE: f64 = 1e-6;
-/// At half the limit, while a small slab breaks in two: what the fastest motion at the tip leaves. It falls with the
-/// square of the step.
-const BREAKING: f64 = 1.5e-2;
+/// At half the limit, while a small slab breaks in two: atoms an edge, and some twice what the fastest motion at the tip
+/// leaves: sums taken in another order break the slab in a slightly different way.
+const BREAKING: [(u16, f64); 2] = [(1, 1.2e-2), (10, 1.5e-2)];
+/// The error falls with the square of the step, so that what is booked wrongly, whatever the step, shows.
+const SHORTER: f64 = 0.25;
 const STEPS: f64 = 1e5;
 
 /// Keeps the series of a run.
@@ -94,17 +96,24 @@ fn the_energy_of_an_uncracked_slab_closes_over_a_hundred_thousand_steps() {
 #[test]
 fn the_energy_closes_while_a_crack_runs() {
     let mut gate = Gate::new(Chapter::Motion, "2 ledger with a crack");
-    for element in [1, 10] {
-        let until = Until {
-            strain: Some(0.06),
-            ..Until::default()
-        };
-        let mut solver = solver(slab(element, vec![], smooth().spacing), 2e-4, 0.5, until, 1.0);
-        let series = run(&mut solver);
-        assert!(series.bonds.len() > 20, "it breaks");
-        let error = solver.ledger().relative_error().expect("work was done");
-        let setting = format!("{SMOOTH}, n = {element}, time-step auto (half the limit)");
-        gate.below("energy error over the work", &setting, error, BREAKING);
+    for (element, breaking) in BREAKING {
+        for (shorter, step) in [
+            (1.0, "time-step auto (half the limit)"),
+            (SHORTER, "an eighth of the limit"),
+        ] {
+            let until = Until {
+                strain: Some(0.06),
+                ..Until::default()
+            };
+            let slab = slab(element, vec![], smooth().spacing);
+            let mut solver = solver(slab, 2e-4, 0.5 * shorter, until, 1.0);
+            let series = run(&mut solver);
+            assert!(series.bonds.len() > 20, "it breaks");
+            let error = solver.ledger().relative_error().expect("work was done");
+            let setting = format!("{SMOOTH}, n = {element}, {step}");
+            let limit = breaking * shorter * shorter;
+            gate.below("energy error over the work", &setting, error, limit);
+        }
     }
     gate.close();
 }
