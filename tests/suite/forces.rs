@@ -63,6 +63,18 @@ fn fast_sums_equal_the_sum_over_all_pairs_in_every_state_of_every_mesh() {
     }
 }
 
+/// In spacings: the shortest bonds that no string holds have 11, so that a compression by 3 % brings them within it.
+const MANY_SHELLS: f64 = 10.69;
+
+#[test]
+fn bonds_that_a_small_compression_brings_within_a_long_cutoff_are_found() {
+    let spacing = lennard_jones(12.0, AtCutoff::Truncated).spacing;
+    let material = lennard_jones(MANY_SHELLS * spacing, AtCutoff::Truncated);
+    let mesh = slab(10, vec![], material.spacing);
+    let compressed = displaced(&mesh, |[x, y]| [-0.0295 * x, -0.0295 * y]);
+    check_against_referee(&mesh, &material, &compressed, Summation::Exact, "compressed");
+}
+
 #[test]
 fn bonds_of_nodes_alone_are_the_weighed_sum_over_all_pairs() {
     // [Deng2011] Eq. (3-33)
