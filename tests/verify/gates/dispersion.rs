@@ -188,13 +188,13 @@ fn waves_of_every_mass_through_triangles_of_every_size_are_those_of_the_definiti
             let measured = Measured::new(size, &material, consistent);
             let reference = Reference::new(size, Stacking::ToAndFro, consistent);
             let setting = coupled(size, consistent);
-            let mut worst = 0.0f64;
+            let mut differences = Vec::new();
             for (name, direction, displacement) in POLARISATIONS {
                 for wavelength in WAVELENGTHS {
                     let wave = direction.map(|part| part * std::f64::consts::TAU / wavelength);
                     let found = measured.frequency(wave.map(|part| part / material.spacing), displacement);
                     let expected = reference.frequency(wave, displacement);
-                    worst = worst.max((found / expected - 1.0).abs());
+                    differences.push((found / expected - 1.0).abs());
                     if wavelength == 60.0 {
                         let longest = if name.starts_with("c_L") { 9.0 } else { 27f64.sqrt() };
                         let [found, expected] = [found, expected].map(|frequency| {
@@ -206,8 +206,11 @@ fn waves_of_every_mass_through_triangles_of_every_size_are_those_of_the_definiti
                     }
                 }
             }
-            let claim = "frequencies of these waves from 200 to 30 r0, worst share off the definition";
-            gate.below(claim, &setting, worst, DEFINITION);
+            let claim =
+                "frequencies of these waves from 200 to 30 r0, worst share off a Bloch analysis from the definition";
+            // In this order what is not a number comes last.
+            let worst = differences.into_iter().max_by(f64::total_cmp);
+            gate.below(claim, &setting, worst.expect("there are waves"), DEFINITION);
             let highest = measured.highest(size, material.spacing);
             gate.within("highest frequency", &setting, highest, reference.highest(), DEFINITION);
             let claim = "the same over the bound by which the time step is chosen";

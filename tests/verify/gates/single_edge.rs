@@ -101,7 +101,7 @@ fn claim(grip: Grip, ratio: f64, share: f64) -> String {
 
 const SHARES: [f64; 6] = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6];
 
-/// `expected`: the factors of [`SHARES`].
+/// `expected`: the factors of [`SHARES`]. Those of a uniform traction are not here: grips prescribe displacements.
 fn check(order: &'static str, length: i32, ratio: f64, grip: Grip, expected: [f64; SHARES.len()]) {
     let mut gate = Gate::new(Chapter::Fracture, order);
     let found = factors(&shape(length, ratio, grip), &SHARES);
