@@ -5,13 +5,14 @@ TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test verify speed-against-error check lint schema setup test-setup install
+.PHONY: help quickstart build test verify bench speed-against-error check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
 	@echo 'make quickstart   build, then run studies/quickstart.yaml and build its report'
 	@echo 'make test         build, then run all fast tests'
 	@echo 'make verify       the long verification: closed forms, and the same specimens in LAMMPS, which it installs; writes docs/verification.md'
+	@echo 'make bench        what a step, a run and a command cost on this machine, beside LAMMPS; writes docs/performance.md'
 	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
@@ -31,6 +32,11 @@ test: test-setup
 verify: build
 	@.ci/packages lammps
 	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test verify
+
+# Takes some minutes. The numbers are worth most on a machine that does nothing else.
+bench: build
+	@.ci/packages lammps
+	$(CARGO) bench --locked --bench performance
 
 # The costs in the report are those of this machine, so LAMMPS is measured on it too.
 speed-against-error: build

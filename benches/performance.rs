@@ -1,0 +1,52 @@
+//! What this program costs on this machine, beside what is asked of it: `make bench`.
+//!
+//! Every part leaves its numbers as `reports/performance/*.csv`; `docs/performance.md` shows those files. Names of parts
+//! as arguments measure only these: `cargo bench --bench performance -- steps growth`.
+
+mod performance {
+    pub mod clock;
+    pub mod commands;
+    pub mod demand;
+    pub mod growth;
+    pub mod model_a;
+    pub mod page;
+    pub mod peer;
+    pub mod roofline;
+    pub mod specimens;
+    pub mod steps;
+}
+
+use performance::{clock, commands, demand, growth, model_a, page, peer, roofline, steps};
+
+/// A part, and how it is measured.
+type Part = (&'static str, fn());
+
+const PARTS: [Part; 7] = [
+    ("steps", steps::measure),
+    ("peer", peer::measure),
+    ("set-up", steps::measure_set_up),
+    ("growth", growth::measure),
+    ("commands", commands::measure),
+    ("model-a", model_a::measure),
+    ("roofline", roofline::measure),
+];
+
+fn main() {
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|word| !word.starts_with('-')).collect();
+    let parts: Vec<&Part> = PARTS
+        .iter()
+        .filter(|(name, _)| wanted.is_empty() || wanted.iter().any(|word| word == name))
+        .collect();
+    assert!(
+        !parts.is_empty(),
+        "no such part; there are {:?}",
+        PARTS.map(|part| part.0)
+    );
+    page::write_machine();
+    for (name, measure) in parts {
+        eprintln!("{name}: {:.1} programs want to run", clock::load());
+        measure();
+    }
+    page::refresh();
+    println!("{}", demand::table());
+}
