@@ -16,7 +16,7 @@ use region::Region;
 use sites::{Layout, SiteSet};
 
 /// What a mesh is made from. Lengths in units of the lattice spacing unless said otherwise.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     pub layout: Layout,
     /// Atoms an edge of the elements outside the regions.
@@ -60,8 +60,9 @@ impl Mesh {
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
         let mut owner = vec![u32::MAX; sites.len()];
         for (number, element) in elements.iter().enumerate() {
-            for site in element.sites() {
-                owner[sites.index(site).expect("elements lie inside the specimen")] = number as u32;
+            for (leftmost, count) in element.rows() {
+                let run = sites.run(leftmost, count).expect("elements lie inside the specimen");
+                owner[run].fill(number as u32);
             }
         }
         let left = sites.left();

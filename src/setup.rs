@@ -8,7 +8,7 @@ mod recorder;
 mod run;
 
 pub use error::SetupError;
-pub use estimate::{Estimate, estimate};
+pub use estimate::{Estimate, Estimator};
 pub use run::{Finished, RunCaseError, run_case};
 
 use std::time::Duration;

@@ -161,8 +161,8 @@ impl Solver {
         forces
             .compute(&state.position, &mut state.force)
             .map_err(SolverError::NoStart)?;
-        let start = forces.measure(&state.position).map_err(SolverError::NoStart)?;
-        let stability_limit = time_step::limit(&mut forces, &state).map_err(SolverError::NoStart)?;
+        let start = forces.measure_computed(&state.position);
+        let stability_limit = time_step::limit(&forces, &state);
         let time_step = settings.time_step.choose(stability_limit)?;
         let jump = material.interaction.jump_at_cutoff();
         let ledger = Ledger::new(&start, state.kinetic_energy(), jump);
@@ -285,7 +285,7 @@ impl Solver {
             .map_err(SolverError::NoStart)?;
         self.ledger.begin(&start, self.state.kinetic_energy());
         self.power = self.loading.power(&self.state);
-        self.stability_limit = time_step::limit(&mut self.forces, &self.state).map_err(SolverError::NoStart)?;
+        self.stability_limit = time_step::limit(&self.forces, &self.state);
         self.time_step = self.settings.time_step.choose(self.stability_limit)?;
         self.cost.book(Phase::SetUp, &mut clock);
         Ok(true)
@@ -341,8 +341,7 @@ impl Solver {
         self.power = power;
         self.cost.book(Phase::Motion, &mut clock);
         if self.step.is_multiple_of(time_step::CHECK_EVERY) {
-            self.stability_limit =
-                time_step::limit(&mut self.forces, &self.state).map_err(|source| self.blow_up(source))?;
+            self.stability_limit = time_step::limit(&self.forces, &self.state);
             let adapted = self.settings.time_step.adapt(self.time_step, self.stability_limit);
             self.time_step = adapted.ok_or_else(|| self.step_unstable())?;
             self.cost.book(Phase::Stability, &mut clock);

@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::affine::site_position;
-use super::{Forces, Planes};
+use super::{CHUNK, Forces, Planes};
 use crate::lattice::triangular;
 
 impl Forces {
@@ -12,52 +12,59 @@ impl Forces {
     ///
     /// An intact interface keeps all its bonds, and what happens inside a triangle is deformation, not a crack.
     pub fn broken_bonds(&self, position: &Planes) -> Vec<[i32; 3]> {
-        let quiet: Vec<bool> = (0..self.mesh.triangles)
-            .map(|triangle| !self.meets_others(triangle))
+        let candidates = self.elements_that_meet_others();
+        let mut broken: Vec<[i32; 3]> = candidates
+            .par_iter()
+            .with_min_len(CHUNK)
+            .flat_map_iter(|&element| self.broken_bonds_of(element as usize, position))
             .collect();
-        let rows = (0..self.mesh.sites.rows()).into_par_iter();
-        rows.flat_map_iter(|row| self.broken_bonds_of_row(row, &quiet, position))
+        broken.par_sort_unstable_by_key(|&[column, row, direction]| [row, column, direction]);
+        broken
+    }
+
+    /// Atoms, and triangles that border anything but intact interfaces.
+    fn elements_that_meet_others(&self) -> Vec<u32> {
+        let mut meets = self.interfaces.exposed.clone();
+        for (number, pair) in self.interfaces.pairs.iter().enumerate() {
+            if self.is_open(number) {
+                meets[pair.first as usize] = true;
+                meets[pair.second as usize] = true;
+            }
+        }
+        let triangles = (0..)
+            .zip(&meets)
+            .filter(|(_, meets)| **meets)
+            .map(|(triangle, _)| triangle);
+        triangles
+            .chain(self.mesh.triangles as u32..self.mesh.elements.len() as u32)
             .collect()
     }
 
-    fn broken_bonds_of_row(&self, row: i32, quiet: &[bool], position: &Planes) -> Vec<[i32; 3]> {
+    fn broken_bonds_of(&self, element: usize, position: &Planes) -> Vec<[i32; 3]> {
         let mesh = &self.mesh;
         let limit = self.material.breaking_length().powi(2);
+        let shape = &mesh.elements[element];
         let mut broken = Vec::new();
-        for column in mesh.sites.columns(row) {
-            let site = [column, row];
-            let element = mesh.owner_of(site).expect("the site is in the set");
-            if element < mesh.triangles && quiet[element] {
-                continue;
-            }
+        for local in shape.locals() {
+            let site = shape.site(local);
             for (direction, vector) in triangular::NEAREST.iter().enumerate() {
-                let neighbour = [column + vector[0], row + vector[1]];
+                let neighbour = [site[0] + vector[0], site[1] + vector[1]];
                 let Some(other) = mesh.owner_of(neighbour) else {
                     continue;
                 };
                 if other == element || mesh.severed(site, neighbour) || self.is_intact_between(element, other) {
                     continue;
                 }
-                let [a, b] = [(element, site), (other, neighbour)]
-                    .map(|(owner, site)| site_position(mesh, owner, mesh.elements[owner].local(site), position));
+                let there = mesh.elements[other].local(neighbour);
+                let [a, b] = [(element, local), (other, there)]
+                    .map(|(owner, local)| site_position(mesh, owner, local, position));
                 let [x, y] = [b[0] - a[0], b[1] - a[1]];
                 if x * x + y * y >= limit {
-                    broken.push([column, row, direction as i32]);
+                    broken.push([site[0], site[1], direction as i32]);
                 }
             }
         }
         broken
-    }
-
-    /// Whether a triangle borders anything but intact interfaces.
-    fn meets_others(&self, triangle: usize) -> bool {
-        let opened = || {
-            self.interfaces
-                .of(triangle)
-                .iter()
-                .any(|&number| self.is_open(number as usize))
-        };
-        self.interfaces.exposed[triangle] || opened()
     }
 
     fn is_intact_between(&self, a: usize, b: usize) -> bool {

@@ -16,9 +16,8 @@ use rayon::prelude::*;
 
 use super::affine::site_position;
 use super::{CHUNK, Planes};
-use crate::material::Material;
 use crate::mesh::Mesh;
-use crate::potential::{CutPotential, PairShape, PairValue, with_law};
+use crate::potential::{CutPotential, PairShape};
 
 /// Sites that have partners, their lists, and the sums of the last call.
 #[derive(Default)]
@@ -162,24 +161,6 @@ impl Contacts {
                 partner.severed(),
                 count,
             );
-        }
-    }
-
-    /// What a pair is worth, bonded or severed.
-    pub fn value(&self, material: &Material, squared: f64, severed: bool) -> PairValue {
-        if severed {
-            with_law!(material.interaction, law => law.repulsion(squared, self.spacing))
-        } else {
-            material.interaction.evaluate(squared)
-        }
-    }
-
-    /// Second derivative of a pair's energy with its distance, bonded or severed.
-    pub fn curvature(&self, material: &Material, distance: f64, severed: bool) -> f64 {
-        if severed {
-            with_law!(material.interaction, law => law.repulsion_curvature(distance, self.spacing))
-        } else {
-            material.interaction.curvature(distance)
         }
     }
 }

@@ -1,10 +1,14 @@
-//! What is not needed in every step: energy, pairs within the cutoff, virial stress, and bounds on the stiffness.
+//! What is not needed in every step: energy, pairs within the cutoff and virial stress.
+
+mod elements;
+mod strings;
 
 use rayon::prelude::*;
 
 use super::affine::Affine;
 use super::summation::{Sample, SampledString};
 use super::{CHUNK, ForceError, Forces, Planes, interface};
+use crate::potential::{CutPotential, PairShape, PairValue, with_law};
 
 /// Totals and per-element sums at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -37,55 +41,33 @@ impl Forces {
     pub fn measure(&mut self, position: &Planes) -> Result<Measure, ForceError> {
         self.refresh(position)?;
         self.contacts.place_sites(&self.mesh, position);
+        Ok(self.measure_computed(position))
+    }
+
+    /// The same at positions for which forces have just been computed: lists and interfaces are those of this state.
+    pub fn measure_computed(&self, position: &Planes) -> Measure {
+        with_law!(self.material.interaction, law => self.measure_with(&law, position))
+    }
+
+    fn measure_with<S: PairShape>(&self, law: &CutPotential<S>, position: &Planes) -> Measure {
+        let across = strings::sum(self, law);
         let chunks = self.mesh.elements.len().div_ceil(CHUNK);
-        let parts: Vec<Measure> = (0..chunks)
-            .into_par_iter()
-            .map(|chunk| {
-                let mut part = Measure::default();
-                for element in chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK) {
-                    let virial = self.measure_element(element, position, &mut part);
-                    part.virial.push(virial);
-                }
-                part
-            })
-            .collect();
+        let of_chunk = |chunk: usize| {
+            let elements = chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK);
+            elements::sum(self, law, &across.virial, elements, position)
+        };
+        let parts: Vec<Measure> = (0..chunks).into_par_iter().map(of_chunk).collect();
         let mut total = Measure {
+            energy: across.energy,
+            pairs: across.pairs,
             virial: Vec::with_capacity(self.mesh.elements.len()),
-            ..Measure::default()
         };
         for part in parts {
             total.energy += part.energy;
             total.pairs += part.pairs;
             total.virial.extend(part.virial);
         }
-        Ok(total)
-    }
-
-    fn measure_element(&self, element: usize, position: &Planes, part: &mut Measure) -> [f64; 3] {
-        let mut virial = [0.0; 3];
-        let squared_cutoff = self.material.interaction.cutoff().powi(2);
-        self.for_each_bond(element, position, |bond| {
-            let [x, y] = bond.vector;
-            let squared = x * x + y * y;
-            let (share, severed) = match bond.kind {
-                BondKind::Inside { .. } => (bond.count, false),
-                BondKind::Across { severed, .. } => (0.5 * bond.count, severed),
-            };
-            let value = self.contacts.value(&self.material, squared, severed);
-            part.energy += share * value.energy;
-            part.pairs += if squared < squared_cutoff && !severed {
-                share
-            } else {
-                0.0
-            };
-            let pull = share * value.slope;
-            virial = [
-                virial[0] + pull * x * x,
-                virial[1] + pull * y * y,
-                virial[2] + pull * x * y,
-            ];
-        });
-        virial
+        total
     }
 
     /// Calls with every bond of an element: those inside it once, those to other elements as seen from its side.
@@ -147,6 +129,16 @@ impl Forces {
                     kind: BondKind::Across { local, severed: false },
                 });
             }
+        }
+    }
+
+    /// What a pair is worth, bonded or severed.
+    #[inline(always)]
+    pub(super) fn pair_value<S: PairShape>(&self, law: &CutPotential<S>, squared: f64, severed: bool) -> PairValue {
+        if severed {
+            law.repulsion(squared, self.material.spacing)
+        } else {
+            law.evaluate(squared)
         }
     }
 }

@@ -1,11 +1,20 @@
 //! An upper bound of the highest frequency, for a time step that is stable for certain.
 
+mod alike;
+
+use std::ops::Range;
+
 use nalgebra::Matrix6;
 use rayon::prelude::*;
 
 use super::measure::{Bond, BondKind};
 use super::{CHUNK, ForceError, Forces, Planes};
+use crate::potential::{CutPotential, PairShape, with_law};
 use crate::state::State;
+
+/// Elements in one parallel task. The largest of a task is found from the first on, so that it sets what is looked at
+/// closely, but not the result.
+const TASK: usize = 1024;
 
 impl Forces {
     /// Upper bound of the squared highest angular frequency in the current state, 1/ps^2.
@@ -16,23 +25,45 @@ impl Forces {
     /// largest eigenvalue of the small matrices bounds that of the large one. For the perfect crystal of atoms the
     /// bound 6 k/m is exact.
     pub fn squared_frequency_bound(&mut self, state: &State) -> Result<f64, ForceError> {
-        let position = &state.position;
-        self.refresh(position)?;
-        self.contacts.place_sites(&self.mesh, position);
-        let chunks = self.mesh.elements.len().div_ceil(CHUNK);
-        let of_chunk = |chunk: usize| {
-            let elements = chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK);
-            elements.fold(0.0, |largest: f64, element| {
-                let mut stiffness = self.element_stiffness(element, position);
-                if let Some(&share) = state.coupling.get(element) {
+        self.refresh(&state.position)?;
+        self.contacts.place_sites(&self.mesh, &state.position);
+        Ok(self.squared_frequency_bound_computed(state))
+    }
+
+    /// The same for a state whose forces have just been computed: lists and interfaces are those of this state.
+    pub fn squared_frequency_bound_computed(&self, state: &State) -> f64 {
+        let elements = self.mesh.elements.len();
+        let tasks = (0..elements.div_ceil(TASK)).into_par_iter();
+        let bounds = tasks.map(|task| {
+            let range = task * TASK..elements.min((task + 1) * TASK);
+            with_law!(self.material.interaction, law => self.largest_of(&law, range, state))
+        });
+        bounds.reduce(|| 0.0, f64::max)
+    }
+
+    fn largest_of<S: PairShape>(&self, law: &CutPotential<S>, elements: Range<usize>, state: &State) -> f64 {
+        let mut largest: f64 = 0.0;
+        let mut at = elements.start;
+        while at < elements.end {
+            let mass = state.mass[self.mesh.first_node(at)];
+            let is_alike = state.coupling.is_empty() && self.are_alike(at, elements.end);
+            let of_alike = is_alike.then(|| alike::largest(self, law, at, mass, largest)).flatten();
+            if at >= self.mesh.triangles {
+                largest = largest.max(self.atom_stiffness(law, at) / mass);
+                at += 1;
+            } else if let Some(found) = of_alike {
+                largest = found;
+                at += alike::WIDTH;
+            } else {
+                let mut stiffness = self.triangle_stiffness(law, at, &state.position);
+                if let Some(&share) = state.coupling.get(at) {
                     stiffness = over_coupled_masses(stiffness, share);
                 }
-                let nodes = self.mesh.elements[element].node_count();
-                let mass = state.mass[self.mesh.first_node(element)];
-                largest.max(largest_eigenvalue(&stiffness, nodes, mass, largest))
-            })
-        };
-        Ok((0..chunks).into_par_iter().map(of_chunk).reduce(|| 0.0, f64::max))
+                largest = largest.max(largest_eigenvalue(&stiffness, mass, largest));
+                at += 1;
+            }
+        }
+        largest
     }
 
     /// Upper bound of every element's stiffness in the current state, eV/nm^2: with these for masses no frequency is
@@ -41,33 +72,38 @@ impl Forces {
         self.refresh(position)?;
         self.contacts.place_sites(&self.mesh, position);
         let of_element = |element: usize| {
-            let stiffness = self.element_stiffness(element, position);
-            largest_eigenvalue(&stiffness, self.mesh.elements[element].node_count(), 1.0, 0.0)
+            with_law!(self.material.interaction, law => if element < self.mesh.triangles {
+                largest_eigenvalue(&self.triangle_stiffness(&law, element, position), 1.0, 0.0)
+            } else {
+                self.atom_stiffness(&law, element)
+            })
         };
         let elements = (0..self.mesh.elements.len()).into_par_iter();
         Ok(elements.with_min_len(CHUNK).map(of_element).collect())
     }
 
-    /// Bound of an element's stiffness, rows by node and component; an atom fills the first two.
-    fn element_stiffness(&self, element: usize, position: &Planes) -> Matrix6<f64> {
+    /// Bound of a triangle's stiffness, rows by node and component.
+    fn triangle_stiffness<S: PairShape>(
+        &self,
+        law: &CutPotential<S>,
+        element: usize,
+        position: &Planes,
+    ) -> Matrix6<f64> {
         let shape = &self.mesh.elements[element];
-        let edge = f64::from((shape.size - 1).max(1));
         let mut stiffness = Matrix6::zeros();
         self.for_each_bond(element, position, |bond| {
             let (weights, stiffnesses) = match bond.kind {
-                BondKind::Inside { local } => {
-                    let [p, q] = local.map(|step| f64::from(step) / edge);
-                    ([-p - q, p, q], self.bond_stiffness(&bond, false))
-                }
-                BondKind::Across { local, severed } => {
-                    let [along, across] = self.bond_stiffness(&bond, severed);
-                    (
-                        shape.shape_functions_between_sites(local),
-                        [2.0 * along.max(0.0), 2.0 * across.max(0.0)],
-                    )
-                }
+                BondKind::Inside { local } => (
+                    inside_weights(local, shape.size),
+                    self.bond_stiffness(law, &bond, false),
+                ),
+                BondKind::Across { local, severed } => (
+                    shape.shape_functions_between_sites(local),
+                    self.bond_stiffness(law, &bond, severed).map(against_a_wall),
+                ),
             };
-            let hessian = hessian(bond.vector, stiffnesses);
+            let [xx, yy, xy] = hessian(bond.vector, stiffnesses);
+            let hessian = [[xx, xy], [xy, yy]];
             for a in 0..3 {
                 for b in 0..3 {
                     let weight = weights[a] * weights[b];
@@ -82,14 +118,48 @@ impl Forces {
         stiffness
     }
 
+    /// Bound of an atom's stiffness, eV/nm^2.
+    fn atom_stiffness<S: PairShape>(&self, law: &CutPotential<S>, element: usize) -> f64 {
+        let [mut xx, mut yy, mut xy] = [0.0; 3];
+        for site in self.contacts.sites_of(element) {
+            self.contacts.for_each_partner(site, |vector, severed, count| {
+                let kind = BondKind::Across {
+                    local: [0.0; 2],
+                    severed,
+                };
+                let bond = Bond { vector, count, kind };
+                let stiffnesses = self.bond_stiffness(law, &bond, severed).map(against_a_wall);
+                let added = hessian(vector, stiffnesses);
+                [xx, yy, xy] = [xx + added[0], yy + added[1], xy + added[2]];
+            });
+        }
+        0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
+    }
+
     /// Stiffness of a bond along its direction and across it: phi'' and phi'/r.
-    fn bond_stiffness(&self, bond: &Bond, severed: bool) -> [f64; 2] {
+    #[inline(always)]
+    fn bond_stiffness<S: PairShape>(&self, law: &CutPotential<S>, bond: &Bond, severed: bool) -> [f64; 2] {
         let [x, y] = bond.vector;
         let squared = x * x + y * y;
-        let along = self.contacts.curvature(&self.material, squared.sqrt(), severed);
-        let across = self.contacts.value(&self.material, squared, severed).slope;
+        let along = if severed {
+            law.repulsion_curvature(squared.sqrt(), self.material.spacing)
+        } else {
+            law.curvature(squared.sqrt())
+        };
+        let across = self.pair_value(law, squared, severed).slope;
         [bond.count * along, bond.count * across]
     }
+}
+
+/// How the nodes of a triangle of this size share in a bond inside it.
+fn inside_weights(local: [i32; 2], size: i32) -> [f64; 3] {
+    let edge = f64::from(size - 1);
+    let [p, q] = local.map(|step| f64::from(step) / edge);
+    [-p - q, p, q]
+}
+
+fn against_a_wall(stiffness: f64) -> f64 {
+    2.0 * stiffness.max(0.0)
 }
 
 /// The stiffness between two inverse roots of the mass matrix over the lumped mass, (1 - 3 c) I + c 1 1^T: the mean of
@@ -107,27 +177,25 @@ fn over_coupled_masses(stiffness: Matrix6<f64>, share: f64) -> Matrix6<f64> {
     root * stiffness * root
 }
 
-/// Second derivative of a bond's energy with its vector.
-fn hessian([x, y]: [f64; 2], [along, across]: [f64; 2]) -> [[f64; 2]; 2] {
+/// Second derivative of a bond's energy with its vector, xx, yy, xy.
+#[inline(always)]
+fn hessian([x, y]: [f64; 2], [along, across]: [f64; 2]) -> [f64; 3] {
     let difference = (along - across) / (x * x + y * y);
-    let mixed = difference * x * y;
     [
-        [across + difference * x * x, mixed],
-        [mixed, across + difference * y * y],
+        across + difference * x * x,
+        across + difference * y * y,
+        difference * x * y,
     ]
 }
 
 /// Largest eigenvalue over the mass; where the sum over a row shows that it is no larger than `known`, that instead.
-fn largest_eigenvalue(stiffness: &Matrix6<f64>, nodes: usize, mass: f64, known: f64) -> f64 {
+fn largest_eigenvalue(stiffness: &Matrix6<f64>, mass: f64, known: f64) -> f64 {
     let row_sum = stiffness
         .row_iter()
         .map(|row| row.iter().map(|entry| entry.abs()).sum::<f64>())
         .fold(0.0, f64::max);
     if row_sum <= known * mass {
         return known;
-    }
-    if nodes == 1 {
-        return stiffness.fixed_view::<2, 2>(0, 0).symmetric_eigenvalues().max() / mass;
     }
     stiffness.symmetric_eigenvalues().max() / mass
 }

@@ -1,5 +1,7 @@
 //! Elements: single atoms and triangles of any size, and how their nodes carry their sites.
 
+use crate::lattice::triangular;
+
 /// A triangle of lattice sites with its nodes at the three corner sites, or a single atom that is its own node.
 ///
 /// Local coordinates (p, q) of a site (i, j) are p = sign (i - column), q = sign (j - row), so that the sites are
@@ -67,16 +69,30 @@ impl Element {
     }
 
     /// The sites that are nodes, in node order.
-    pub fn corners(&self) -> Vec<[i32; 2]> {
+    pub fn corners(&self) -> impl ExactSizeIterator<Item = [i32; 2]> + Clone + use<> {
         let last = self.size - 1;
-        if self.is_atom() {
-            vec![self.site([0, 0])]
-        } else {
-            [[0, 0], [last, 0], [0, last]]
-                .into_iter()
-                .map(|local| self.site(local))
-                .collect()
-        }
+        let corners = [[0, 0], [last, 0], [0, last]].map(|local| self.site(local));
+        corners.into_iter().take(self.node_count())
+    }
+
+    /// Mean of the corners, in units of the lattice spacing.
+    pub fn centre(&self) -> [f64; 2] {
+        let corners = self.corners();
+        let number = corners.len() as f64;
+        let sum = corners
+            .map(triangular::position)
+            .fold([0.0; 2], |sum, place| [sum[0] + place[0], sum[1] + place[1]]);
+        sum.map(|total| total / number)
+    }
+
+    /// Its lattice rows: the leftmost site of each, and how many there are.
+    pub fn rows(&self) -> impl Iterator<Item = ([i32; 2], i32)> + use<> {
+        let element = *self;
+        (0..self.size).map(move |q| {
+            let count = element.size - q;
+            let leftmost = if element.sign > 0 { 0 } else { count - 1 };
+            (element.site([leftmost, q]), count)
+        })
     }
 
     /// Shape functions N_i at local coordinates: area coordinates, [Deng2011] Eq. (3-27) on Fig. 3-6.
@@ -164,7 +180,7 @@ mod tests {
             column: 5,
             row: 9,
         };
-        let corners = element.corners();
+        let corners: Vec<[i32; 2]> = element.corners().collect();
         for local in element.locals() {
             let shape = element.shape_functions(local);
             let site = element.site(local);
@@ -173,6 +189,26 @@ mod tests {
                 assert!((found - f64::from(site[axis])).abs() < 1e-12);
             }
             assert!(element.contains(site));
+        }
+    }
+
+    #[test]
+    fn rows_hold_every_site_once() {
+        for sign in [1, -1] {
+            let element = Element {
+                size: 6,
+                sign,
+                column: -2,
+                row: 4,
+            };
+            let in_rows = element
+                .rows()
+                .flat_map(|([column, row], count)| (column..column + count).map(move |i| [i, row]));
+            let mut in_rows: Vec<[i32; 2]> = in_rows.collect();
+            let mut sites: Vec<[i32; 2]> = element.sites().collect();
+            in_rows.sort_unstable();
+            sites.sort_unstable();
+            assert_eq!(in_rows, sites);
         }
     }
 }

@@ -85,8 +85,14 @@ impl Interfaces {
         };
         let mut kinds: HashMap<KindKey, u32> = HashMap::new();
         let mut neighbours = Vec::new();
+        let mut surroundings: HashMap<(i32, i32), Vec<[i32; 2]>> = HashMap::new();
         for (number, element) in mesh.elements[..mesh.triangles].iter().enumerate() {
-            found.exposed[number] = collect_neighbours(mesh, number, element, &around, &mut neighbours);
+            let shape = (element.size, element.sign);
+            let surrounding = surroundings
+                .entry(shape)
+                .or_insert_with(|| surrounding(element, &around));
+            let borders_others = collect_neighbours(mesh, element, surrounding, &mut neighbours);
+            found.exposed[number] = borders_others || borders_cut(mesh, element, &around);
             for &other in neighbours.iter().filter(|&&other| other as usize > number) {
                 let second = &mesh.elements[other as usize];
                 let key = (
@@ -172,44 +178,67 @@ impl Interfaces {
     }
 }
 
-/// Lists the triangles within reach of the border sites of one; returns whether it also meets atoms, free surface or cut.
-fn collect_neighbours(
-    mesh: &Mesh,
-    number: usize,
-    element: &Element,
-    around: &[[i32; 2]],
-    neighbours: &mut Vec<u32>,
-) -> bool {
+/// The sites within reach of an element, relative to its anchor, row by row.
+fn surrounding(element: &Element, around: &[[i32; 2]]) -> Vec<[i32; 2]> {
+    let origin = [-element.column, -element.row];
+    let reached = border(element).flat_map(|site| around.iter().map(move |&vector| shift(site, vector, 1)));
+    let outside = reached.filter(|&site| !element.contains(site));
+    let mut sites: Vec<[i32; 2]> = outside.map(|site| shift(site, origin, 1)).collect();
+    sites.sort_unstable_by_key(|&[column, row]| [row, column]);
+    sites.dedup();
+    sites
+}
+
+/// Lists the triangles that hold sites in the surrounding of one; returns whether it also meets atoms or free surface.
+fn collect_neighbours(mesh: &Mesh, element: &Element, surrounding: &[[i32; 2]], neighbours: &mut Vec<u32>) -> bool {
     neighbours.clear();
     let mut exposed = false;
-    for local in element
-        .locals()
-        .filter(|&[p, q]| p == 0 || q == 0 || p + q == element.size - 1)
-    {
-        let site = element.site(local);
-        for vector in around {
-            let other_site = [site[0] + vector[0], site[1] + vector[1]];
-            match mesh.owner_of(other_site) {
-                Some(other) if other == number => {}
-                Some(other) if other < mesh.triangles => {
-                    exposed |= mesh.severed(site, other_site);
-                    if !neighbours.contains(&(other as u32)) {
-                        neighbours.push(other as u32);
-                    }
+    for &offset in surrounding {
+        match mesh.owner_of([element.column + offset[0], element.row + offset[1]]) {
+            Some(other) if other < mesh.triangles => {
+                if neighbours.last() != Some(&(other as u32)) {
+                    neighbours.push(other as u32);
                 }
-                _ => exposed = true,
             }
+            _ => exposed = true,
         }
     }
     neighbours.sort_unstable();
+    neighbours.dedup();
     exposed
+}
+
+/// Whether a cut severs an element from a site within reach that a triangle holds.
+fn borders_cut(mesh: &Mesh, element: &Element, around: &[[i32; 2]]) -> bool {
+    if !is_near_cut(mesh, element, around) {
+        return false;
+    }
+    let pairs = border(element).flat_map(|site| around.iter().map(move |&vector| (site, shift(site, vector, 1))));
+    pairs
+        .filter(|&(site, other)| mesh.severed(site, other))
+        .any(|(_, other)| mesh.owner_of(other).is_some_and(|owner| owner < mesh.triangles))
+}
+
+/// The sites along the edges of an element.
+fn border(element: &Element) -> impl Iterator<Item = [i32; 2]> + use<> {
+    let element = *element;
+    let locals = element
+        .locals()
+        .filter(move |&[p, q]| p == 0 || q == 0 || p + q == element.size - 1);
+    locals.map(move |local| element.site(local))
+}
+
+/// Whether an element has sites so near to the cut that one of these vectors may cross it.
+fn is_near_cut(mesh: &Mesh, element: &Element, around: &[[i32; 2]]) -> bool {
+    let Some(cut) = mesh.cut else { return false };
+    let reach = around.iter().map(|vector| vector[1].abs()).max().unwrap_or(0);
+    let [lowest, highest] = [element.lowest_row(), element.lowest_row() + element.size - 1];
+    lowest < cut.row + reach && highest >= cut.row - reach
 }
 
 fn is_severed(mesh: &Mesh, first: &Element, second: &Element, around: &[[i32; 2]]) -> bool {
     let Some(cut) = mesh.cut else { return false };
-    let rows = |e: &Element| [e.lowest_row(), e.lowest_row() + e.size - 1];
-    let near = |e: &Element| rows(e)[0] <= cut.row + 3 && rows(e)[1] >= cut.row - 4;
-    if !near(first) || !near(second) {
+    if !is_near_cut(mesh, first, around) || !is_near_cut(mesh, second, around) {
         return false;
     }
     let pairs = first

@@ -1,5 +1,7 @@
 //! The set of lattice sites of a specimen, the same whatever the resolution.
 
+use std::ops::Range;
+
 use crate::lattice::triangular;
 
 /// How many blocks a specimen has: element rows of `block` lattice rows, an odd number of triangles in each.
@@ -97,7 +99,7 @@ impl SiteSet {
     }
 
     /// Columns of a lattice row.
-    pub fn columns(&self, row: i32) -> std::ops::Range<i32> {
+    pub fn columns(&self, row: i32) -> Range<i32> {
         let k = row as usize;
         self.first[k]..self.first[k] + (self.start[k + 1] - self.start[k]) as i32
     }
@@ -111,6 +113,15 @@ impl SiteSet {
         let k = row as usize;
         let offset = column - self.first[k];
         (offset >= 0 && (offset as usize) < self.start[k + 1] - self.start[k]).then(|| self.start[k] + offset as usize)
+    }
+
+    /// Numbers of so many sites of a row from this one on; `None` if the specimen does not hold them all.
+    #[inline(always)]
+    pub fn run(&self, leftmost: [i32; 2], count: i32) -> Option<Range<usize>> {
+        let [column, row] = leftmost;
+        let first = self.index(leftmost)?;
+        let last = self.index([column + count - 1, row])?;
+        Some(first..last + 1)
     }
 
     /// All sites in the order of their numbers.

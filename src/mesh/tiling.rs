@@ -1,5 +1,7 @@
 //! Covers every site of a specimen with exactly one element.
 
+use std::ops::Range;
+
 use super::element::Element;
 use super::sites::SiteSet;
 
@@ -83,25 +85,23 @@ impl Tiling<'_> {
     }
 
     /// Places a triangle if all its sites are free and none wants a finer element; in the latter case all do then.
-    fn place(&mut self, element: Element) -> bool {
-        let Some(numbers) = self.free_sites(&element) else {
-            return false;
+    fn place(&mut self, element: Element) {
+        let Some(finest) = self.finest_if_free(&element) else {
+            return;
         };
-        let finest = numbers
-            .iter()
-            .map(|&site| self.target[site])
-            .min()
-            .expect("an element has sites");
-        if i32::from(finest) < element.size {
-            for &site in &numbers {
-                if i32::from(self.target[site]) >= element.size {
-                    self.target[site] = finest;
-                }
-            }
-            return false;
+        if i32::from(finest) >= element.size {
+            self.cover(element);
+            return;
         }
-        self.cover(element, &numbers);
-        true
+        for run in self.runs(&element) {
+            for target in &mut self.target[run] {
+                *target = if i32::from(*target) >= element.size {
+                    finest
+                } else {
+                    *target
+                };
+            }
+        }
     }
 
     /// Puts triangles of one size wherever free sites allow, scanning site by site.
@@ -118,11 +118,11 @@ impl Tiling<'_> {
                 if self.crosses_a_break(&element) {
                     continue;
                 }
-                let Some(numbers) = self.free_sites(&element) else {
-                    continue;
-                };
-                if numbers.iter().all(|&site| i32::from(self.target[site]) >= size) {
-                    self.cover(element, &numbers);
+                if self
+                    .finest_if_free(&element)
+                    .is_some_and(|finest| i32::from(finest) >= size)
+                {
+                    self.cover(element);
                 }
             }
         }
@@ -141,20 +141,32 @@ impl Tiling<'_> {
             .map(|(_, site)| site)
     }
 
-    fn free_sites(&self, element: &Element) -> Option<Vec<usize>> {
-        let corners_inside = element
-            .corners()
-            .into_iter()
-            .all(|corner| self.sites.index(corner).is_some());
-        if !corners_inside {
-            return None;
+    /// The finest element that a site of this one wants; `None` unless all are there and free.
+    fn finest_if_free(&self, element: &Element) -> Option<u16> {
+        let mut finest = u16::MAX;
+        for (leftmost, count) in element.rows() {
+            let run = self.sites.run(leftmost, count)?;
+            if self.covered[run.clone()].contains(&true) {
+                return None;
+            }
+            finest = self.target[run]
+                .iter()
+                .fold(finest, |finest, &target| finest.min(target));
         }
-        let number = |site| self.sites.index(site).filter(|&n| !self.covered[n]);
-        element.sites().map(number).collect()
+        Some(finest)
     }
 
-    fn cover(&mut self, element: Element, numbers: &[usize]) {
-        numbers.iter().for_each(|&site| self.covered[site] = true);
+    /// Numbers of the sites of an element inside the specimen, row by row.
+    fn runs(&self, element: &Element) -> Vec<Range<usize>> {
+        let rows = element.rows();
+        rows.filter_map(|(leftmost, count)| self.sites.run(leftmost, count))
+            .collect()
+    }
+
+    fn cover(&mut self, element: Element) {
+        for run in self.runs(&element) {
+            self.covered[run].fill(true);
+        }
         self.elements.push(element);
     }
 

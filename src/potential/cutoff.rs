@@ -104,6 +104,29 @@ impl<S: PairShape> CutPotential<S> {
         slopes
     }
 
+    /// Energy and phi'/r of several pairs at once, each as [`Self::evaluate`] has them; as fast as [`Self::slopes`].
+    #[inline(always)]
+    pub fn values<const SIDE: usize>(&self, squared_distances: [f64; SIDE]) -> [[f64; SIDE]; 2] {
+        let mut switched = false;
+        for squared in squared_distances {
+            switched |= squared > self.squared_switch;
+        }
+        let [mut energies, mut slopes] = [[0.0; SIDE]; 2];
+        for side in 0..SIDE {
+            let squared = squared_distances[side];
+            [energies[side], slopes[side]] = if switched {
+                let PairValue { energy, slope } = self.evaluate(squared);
+                [energy, slope]
+            } else if squared >= self.squared_cutoff {
+                [0.0, 0.0]
+            } else {
+                let (energy, slope) = self.shape.energy_and_slope(squared);
+                [energy - self.shift, slope]
+            };
+        }
+        [energies, slopes]
+    }
+
     #[cold]
     fn switched(&self, squared_distance: f64, energy: f64, slope: f64) -> PairValue {
         let distance = squared_distance.sqrt();
@@ -132,6 +155,7 @@ impl<S: PairShape> CutPotential<S> {
     }
 
     /// phi'' of the cut potential; zero from the cutoff on.
+    #[inline]
     pub fn curvature(&self, distance: f64) -> f64 {
         if distance >= self.cutoff {
             return 0.0;
@@ -139,6 +163,27 @@ impl<S: PairShape> CutPotential<S> {
         let [factor, first, second] = self.switch(distance);
         let (energy, slope) = self.shape.energy_and_slope(distance * distance);
         self.shape.curvature(distance) * factor + 2.0 * slope * distance * first + energy * second
+    }
+
+    /// phi'' of several pairs at once, each as [`Self::curvature`] has it.
+    #[inline(always)]
+    pub fn curvatures<const SIDE: usize>(&self, squared_distances: [f64; SIDE]) -> [f64; SIDE] {
+        let mut switched = false;
+        for squared in squared_distances {
+            switched |= squared > self.squared_switch;
+        }
+        let mut curvatures = [0.0; SIDE];
+        for (curvature, squared) in curvatures.iter_mut().zip(squared_distances) {
+            let distance = squared.sqrt();
+            *curvature = if switched {
+                self.curvature(distance)
+            } else if distance >= self.cutoff {
+                0.0
+            } else {
+                self.shape.curvature(distance)
+            };
+        }
+        curvatures
     }
 
     /// Repulsion between the faces of a cut: the potential up to its minimum, zero beyond, stretched so that the
@@ -236,6 +281,25 @@ mod tests {
             1.4,
             1.25,
         );
+    }
+
+    #[test]
+    fn several_pairs_at_once_are_worth_what_each_is_alone() {
+        for at_cutoff in [AtCutoff::Truncated, AtCutoff::Shifted, AtCutoff::Smooth { from: 1.5 }] {
+            let law = CutPotential::new(LJ, 1.9, at_cutoff);
+            // Before the switch, within it and beyond the cutoff, apart and together.
+            for distances in [[0.9, 1.0, 1.2, 1.4], [1.0, 1.6, 1.8, 1.0], [1.4, 1.9, 2.5, 1.7]] {
+                let squared = distances.map(|distance: f64| distance * distance);
+                let [energies, slopes] = law.values(squared);
+                let curvatures = law.curvatures(squared);
+                for side in 0..4 {
+                    let alone = law.evaluate(squared[side]);
+                    assert_eq!([energies[side], slopes[side]], [alone.energy, alone.slope]);
+                    assert_eq!(slopes[side], law.slopes(squared)[side]);
+                    assert_eq!(curvatures[side], law.curvature(squared[side].sqrt()));
+                }
+            }
+        }
     }
 
     #[test]

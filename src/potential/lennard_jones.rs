@@ -18,6 +18,7 @@ impl PairShape for LennardJones {
         (energy, slope)
     }
 
+    #[inline(always)]
     fn curvature(&self, distance: f64) -> f64 {
         let sixth = (self.sigma / distance).powi(6);
         24.0 * self.epsilon * sixth * (26.0 * sixth - 7.0) / (distance * distance)

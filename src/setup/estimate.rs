@@ -1,6 +1,7 @@
 //! What a case will cost, before anything is computed.
 
 use super::census::Census;
+use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching};
 use crate::material::Material;
@@ -43,15 +44,85 @@ const MOST_STEPS: u64 = 1_000_000_000_000;
 /// A run that is looked at less often than this has no curves and no moments.
 const FEWEST_PROBES: f64 = 10.0;
 
-/// The estimate of a case; an error is physical nonsense that only the mesh or the material reveals.
-pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
-    let material = material(case)?;
-    let plan = mesh_plan(case, &material)?;
-    refuse_what_does_not_fit(&plan)?;
-    let census = Census::of(&plan);
+/// Estimates cases, and remembers what many cases of one study have in common.
+#[derive(Default)]
+pub struct Estimator {
+    /// Meshes without their cracks, which no element minds.
+    meshes: Vec<(Plan, Census)>,
+    /// Stability limits, ps, of elements of one size.
+    limits: Vec<(Crystal, f64)>,
+}
+
+/// What the stability limit of an element depends on.
+#[derive(Clone, PartialEq)]
+struct Crystal {
+    size: i32,
+    material: case::Material,
+    summation: Summation,
+    consistent_mass: f64,
+}
+
+impl Estimator {
+    /// The estimate of a case; an error is physical nonsense that only the mesh or the material reveals.
+    pub fn estimate(&mut self, case: &Case) -> Result<Estimate, SetupError> {
+        let material = material(case)?;
+        let plan = mesh_plan(case, &material)?;
+        refuse_what_does_not_fit(&plan)?;
+        let census = self.census(plan);
+        let stability_limit = self.stability_limit(case, &census, &material)?;
+        estimate_with(case, &material, &census, stability_limit)
+    }
+
+    fn census(&mut self, plan: Plan) -> Census {
+        let plan = Plan {
+            crack_length: None,
+            ..plan
+        };
+        match self.meshes.iter().find(|(known, _)| *known == plan) {
+            Some((_, census)) => census.clone(),
+            None => {
+                let census = Census::of(&plan);
+                self.meshes.push((plan, census.clone()));
+                census
+            }
+        }
+    }
+
+    /// The stability limit of the perfect crystal in this mesh, ps. The bound goes element by element, so each size is
+    /// looked at in a small specimen of its own.
+    fn stability_limit(&mut self, case: &Case, census: &Census, material: &Material) -> Result<f64, SolverError> {
+        let case::Loading::StrainRate { rate, .. } = case.loading;
+        let settings = settings(case, rate);
+        let mut least = f64::INFINITY;
+        for &(size, _) in &census.elements {
+            let crystal = Crystal {
+                size,
+                material: case.material.clone(),
+                summation: settings.summation,
+                consistent_mass: settings.consistent_mass,
+            };
+            let limit = match self.limits.iter().find(|(known, _)| *known == crystal) {
+                Some((_, limit)) => *limit,
+                None => {
+                    let limit = stability_limit_of(size, material, &settings)?;
+                    self.limits.push((crystal, limit));
+                    limit
+                }
+            };
+            least = least.min(limit);
+        }
+        Ok(least)
+    }
+}
+
+fn estimate_with(
+    case: &Case,
+    material: &Material,
+    census: &Census,
+    stability_limit: f64,
+) -> Result<Estimate, SetupError> {
     let case::Loading::StrainRate { rate, .. } = case.loading;
     let settings = settings(case, rate);
-    let stability_limit = stability_limit(&census, &material, &settings)?;
     let time_step = settings.time_step.choose(stability_limit)?;
     let start = case.run.relax.unwrap_or(0.0);
     let steps = settings
@@ -81,7 +152,7 @@ pub fn estimate(case: &Case) -> Result<Estimate, SetupError> {
         stability_limit,
         steps,
         memory_bytes: census.memory(),
-        disk_bytes: disk(case, &census, steps as f64 * time_step),
+        disk_bytes: disk(case, census, steps as f64 * time_step),
         seconds: census.weigh(of_element) * steps as f64,
     })
 }
@@ -101,36 +172,29 @@ fn disk(case: &Case, census: &Census, time: f64) -> u64 {
     (pictures * (nodes * (32.0 + 24.0) + elements * (32.0 + 28.0)) + 64.0 * nodes) as u64
 }
 
-/// The stability limit of the perfect crystal in this mesh, ps. The bound goes element by element, so each size is
-/// looked at in a small specimen of its own.
-fn stability_limit(census: &Census, material: &Material, settings: &Settings) -> Result<f64, SolverError> {
-    let limits = census.elements.iter().map(|&(size, _)| {
-        let block = size.max(3);
-        let layout = Layout {
-            block,
-            rows: 4,
-            triangles: 5,
-        };
-        let spacing = material.spacing;
-        let plan = Plan {
-            layout,
-            element: size as u16,
-            regions: vec![],
-            crack_length: None,
-            grip_rows: block,
-            spacing,
-        };
-        let patch = Mesh::new(&plan);
-        let loading = Stretching::new(&patch, 1.0, Grip::Clamped, false);
-        let settings = Settings {
-            time_step: TimeStep::Auto { fraction: 1.0 },
-            ..settings.clone()
-        };
-        Solver::new(patch, *material, loading, settings).map(|solver| solver.time_step()[1])
-    });
-    limits
-        .into_iter()
-        .try_fold(f64::INFINITY, |least, limit| Ok(least.min(limit?)))
+/// The stability limit of a perfect crystal of elements of one size, ps.
+fn stability_limit_of(size: i32, material: &Material, settings: &Settings) -> Result<f64, SolverError> {
+    let block = size.max(3);
+    let layout = Layout {
+        block,
+        rows: 4,
+        triangles: 5,
+    };
+    let plan = Plan {
+        layout,
+        element: size as u16,
+        regions: vec![],
+        crack_length: None,
+        grip_rows: block,
+        spacing: material.spacing,
+    };
+    let patch = Mesh::new(&plan);
+    let loading = Stretching::new(&patch, 1.0, Grip::Clamped, false);
+    let settings = Settings {
+        time_step: TimeStep::Auto { fraction: 1.0 },
+        ..settings.clone()
+    };
+    Solver::new(patch, *material, loading, settings).map(|solver| solver.time_step()[1])
 }
 
 /// Refuses a mesh that would not fit into what is free of this machine's memory, before it is made.

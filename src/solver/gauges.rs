@@ -39,11 +39,7 @@ impl Gauges {
         };
         let mut members = Vec::new();
         for (number, element) in mesh.elements.iter().enumerate() {
-            let corners = element.corners();
-            let centre = [0, 1].map(|axis| {
-                let sum: f64 = corners.iter().map(|&corner| mesh.reference(corner)[axis]).sum();
-                sum / corners.len() as f64
-            });
+            let centre = element.centre().map(|component| component * mesh.spacing);
             let centre = [centre[0] - setting.left_x, centre[1] - mesh.middle_height()];
             for (gauge, place) in places.iter().enumerate() {
                 let beside = centre[1] * place[1] > 0.0;

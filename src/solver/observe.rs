@@ -17,10 +17,7 @@ impl Solver {
             return Ok(());
         }
         let mut clock = Instant::now();
-        let measure = self
-            .forces
-            .measure(&self.state.position)
-            .map_err(|source| self.blow_up(source))?;
+        let measure = self.forces.measure_computed(&self.state.position);
         if probe {
             self.probe(observer, &measure)?;
         }

@@ -83,8 +83,7 @@ impl ProfileLine {
             if rows.start < middle - reach || rows.end > middle + reach {
                 continue;
             }
-            let corners = element.corners();
-            let x: f64 = corners.iter().map(|&corner| mesh.reference(corner)[0]).sum::<f64>() / corners.len() as f64;
+            let x = element.centre()[0] * mesh.spacing;
             let bin = ((x - setting.left_x) / width) as usize;
             members.push((bin.min(bins - 1) as u32, number as u32, element.site_count() as u32));
         }

@@ -1,5 +1,5 @@
 use super::SolverError;
-use crate::forces::{ForceError, Forces};
+use crate::forces::Forces;
 use crate::integrator::stability_limit;
 use crate::state::State;
 
@@ -18,10 +18,9 @@ pub const CHECK_EVERY: u64 = 100;
 /// How near to the limit an automatic time step may come before it is made shorter.
 const NEAREST: f64 = 0.75;
 
-/// Stability limit in the current state, ps.
-pub fn limit(forces: &mut Forces, state: &State) -> Result<f64, ForceError> {
-    let bound = forces.squared_frequency_bound(state)?;
-    Ok(stability_limit(bound))
+/// Stability limit of a state whose forces have just been computed, ps.
+pub fn limit(forces: &Forces, state: &State) -> f64 {
+    stability_limit(forces.squared_frequency_bound_computed(state))
 }
 
 impl TimeStep {

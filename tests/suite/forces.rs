@@ -4,6 +4,7 @@ use cgaft::forces::{Forces, Planes, Summation, referee};
 use cgaft::material::Material;
 use cgaft::mesh::Mesh;
 use cgaft::potential::AtCutoff;
+use cgaft::state::State;
 
 use super::specimens::{all_materials, all_meshes, displaced, lennard_jones, nearest_neighbours, slab, states};
 
@@ -166,6 +167,46 @@ fn forces_are_the_same_bits_on_any_number_of_threads() {
                 })
             };
             assert!(run(1) == run(3), "{mesh_name}, {state}");
+        }
+    }
+}
+
+/// Eigenvalues of matrices of a few rows, and sums over the same bonds in another order.
+const EIGENVALUE_ROUNDING: f64 = 1e-10;
+
+#[test]
+fn the_frequency_bound_is_the_largest_of_all_elements_whether_they_are_computed_side_by_side_or_one_by_one() {
+    for (name, material) in all_materials() {
+        for (mesh_name, mesh) in all_meshes(material.spacing) {
+            for (state_name, position) in states(&mesh) {
+                let masses = mesh.lumped_masses();
+                let first_nodes = (0..mesh.elements.len()).map(|element| mesh.first_node(element));
+                let mut forces = Forces::new(mesh.clone(), material);
+                let bounds = forces.stiffness_bounds(&position).unwrap();
+                let each = bounds.iter().zip(first_nodes).map(|(bound, node)| bound / masses[node]);
+                let expected = each.fold(0.0, f64::max);
+                let state = State::at_rest(position, masses);
+                let found = forces.squared_frequency_bound(&state).unwrap();
+                assert!(
+                    (found - expected).abs() <= EIGENVALUE_ROUNDING * expected,
+                    "{name}, {mesh_name}, {state_name}: {found} for {expected}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn what_is_measured_after_a_step_is_what_is_measured_anew() {
+    let material = nearest_neighbours();
+    for (mesh_name, mesh) in all_meshes(material.spacing) {
+        for (state, position) in states(&mesh) {
+            let mut forces = Forces::new(mesh.clone(), material);
+            let mut force = zeros(&mesh);
+            forces.compute(&position, &mut force).unwrap();
+            let computed = forces.measure_computed(&position);
+            let anew = Forces::new(mesh.clone(), material).measure(&position).unwrap();
+            assert!(computed == anew, "{mesh_name}, {state}");
         }
     }
 }

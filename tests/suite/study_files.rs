@@ -47,7 +47,12 @@ fn mistakes(path: &Path) -> Vec<Mistake> {
         Ok(plan) => plan,
         Err(error) => return error.mistakes(),
     };
-    let refused = |case: &cgaft::plan::PlannedCase| setup::estimate(&case.case).err().map(|why| why.refusal());
+    let refused = |case: &cgaft::plan::PlannedCase| {
+        setup::Estimator::default()
+            .estimate(&case.case)
+            .err()
+            .map(|why| why.refusal())
+    };
     let refusals = plan
         .cases
         .iter()
