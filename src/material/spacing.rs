@@ -10,54 +10,71 @@ pub fn zero_pressure_spacing(interaction: &Interaction) -> Option<f64> {
     const NARROWEST: f64 = 0.7;
     let widest = interaction.cutoff().min(1.3 * interaction.minimum());
     let narrowest = NARROWEST * interaction.minimum();
-    let spacing = |k: usize| narrowest + (widest - narrowest) * k as f64 / SCAN as f64;
-    let crossings = (0..SCAN).filter_map(|k| {
-        let [low, high] = [spacing(k), spacing(k + 1)];
-        let rises = slope(interaction, low) < 0.0 && slope(interaction, high) >= 0.0;
-        rises.then(|| bisect(interaction, low, high))
-    });
-    let stable = crossings.filter(|&spacing| slope(interaction, spacing).abs() < 1e-6 * scale(interaction, spacing));
-    stable.min_by(|&a, &b| energy(interaction, a).total_cmp(&energy(interaction, b)))
+    let site = Site::new(interaction, narrowest);
+    let spacings: Vec<f64> = (0..=SCAN)
+        .map(|k| narrowest + (widest - narrowest) * k as f64 / SCAN as f64)
+        .collect();
+    let slopes: Vec<f64> = spacings.iter().map(|&spacing| site.slope(spacing)).collect();
+    let rises = (0..SCAN).filter(|&k| slopes[k] < 0.0 && slopes[k + 1] >= 0.0);
+    let crossings = rises.map(|k| site.bisect(spacings[k], spacings[k + 1]));
+    let stable = crossings.filter(|&spacing| site.slope(spacing).abs() < 1e-6 * site.scale(spacing));
+    stable.min_by(|&a, &b| site.energy(a).total_cmp(&site.energy(b)))
 }
 
-fn bisect(interaction: &Interaction, mut low: f64, mut high: f64) -> f64 {
-    while high > low {
-        let middle = 0.5 * (low + high);
-        if middle <= low || middle >= high {
-            break;
-        }
-        if slope(interaction, middle) < 0.0 {
-            low = middle;
-        } else {
-            high = middle;
+/// One site of the crystal and its bonds.
+struct Site<'a> {
+    interaction: &'a Interaction,
+    /// Squared lengths of half of its bonds, in spacings: all that may be within the cutoff.
+    bonds: Vec<f64>,
+}
+
+impl<'a> Site<'a> {
+    fn new(interaction: &'a Interaction, narrowest: f64) -> Self {
+        let bonds = triangular::half_vectors_within(interaction.cutoff() / narrowest);
+        let bonds = bonds
+            .into_iter()
+            .map(|bond| f64::from(triangular::squared_length(bond)));
+        Self {
+            interaction,
+            bonds: bonds.collect(),
         }
     }
-    high
-}
 
-/// Energy of one site.
-fn energy(interaction: &Interaction, spacing: f64) -> f64 {
-    sum(interaction, spacing, |squared| interaction.evaluate(squared).energy)
-}
+    fn bisect(&self, mut low: f64, mut high: f64) -> f64 {
+        while high > low {
+            let middle = 0.5 * (low + high);
+            if middle <= low || middle >= high {
+                break;
+            }
+            if self.slope(middle) < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        high
+    }
 
-/// Derivative of the energy with the logarithm of the spacing.
-fn slope(interaction: &Interaction, spacing: f64) -> f64 {
-    sum(interaction, spacing, |squared| {
-        interaction.evaluate(squared).slope * squared
-    })
-}
+    fn energy(&self, spacing: f64) -> f64 {
+        self.sum(spacing, |squared| self.interaction.evaluate(squared).energy)
+    }
 
-/// What the slope is compared with: the second derivative, without its sign.
-fn scale(interaction: &Interaction, spacing: f64) -> f64 {
-    sum(interaction, spacing, |squared| {
-        (interaction.curvature(squared.sqrt()) * squared).abs()
-    })
-}
+    /// Derivative of the energy with the logarithm of the spacing.
+    fn slope(&self, spacing: f64) -> f64 {
+        self.sum(spacing, |squared| self.interaction.evaluate(squared).slope * squared)
+    }
 
-fn sum(interaction: &Interaction, spacing: f64, term: impl Fn(f64) -> f64) -> f64 {
-    let bonds = triangular::half_vectors_within(interaction.cutoff() / spacing);
-    bonds
-        .into_iter()
-        .map(|bond| term(f64::from(triangular::squared_length(bond)) * spacing * spacing))
-        .sum()
+    /// What the slope is compared with: the second derivative, without its sign.
+    fn scale(&self, spacing: f64) -> f64 {
+        self.sum(spacing, |squared| {
+            (self.interaction.curvature(squared.sqrt()) * squared).abs()
+        })
+    }
+
+    /// Bonds come by rising length, and beyond the cutoff all are worth nothing.
+    fn sum(&self, spacing: f64, term: impl Fn(f64) -> f64) -> f64 {
+        let cutoff = self.interaction.cutoff();
+        let squared = self.bonds.iter().map(|length| length * spacing * spacing);
+        squared.take_while(|&squared| squared < cutoff * cutoff).map(term).sum()
+    }
 }

@@ -3,6 +3,8 @@
 //! Bonds of one lattice vector between two triangles lie on straight lines of sites, and along such a string the bond
 //! vector is linear in the position, because both triangles are affine.
 
+mod neighbours;
+
 use std::collections::HashMap;
 
 use super::Mesh;
@@ -84,16 +86,16 @@ impl Interfaces {
             ..Self::default()
         };
         let mut kinds: HashMap<KindKey, u32> = HashMap::new();
-        let mut neighbours = Vec::new();
+        let mut near = Vec::new();
         let mut surroundings: HashMap<(i32, i32), Vec<[i32; 2]>> = HashMap::new();
         for (number, element) in mesh.elements[..mesh.triangles].iter().enumerate() {
             let shape = (element.size, element.sign);
             let surrounding = surroundings
                 .entry(shape)
-                .or_insert_with(|| surrounding(element, &around));
-            let borders_others = collect_neighbours(mesh, element, surrounding, &mut neighbours);
-            found.exposed[number] = borders_others || borders_cut(mesh, element, &around);
-            for &other in neighbours.iter().filter(|&&other| other as usize > number) {
+                .or_insert_with(|| neighbours::surrounding(element, &around));
+            let borders_others = neighbours::collect(mesh, element, surrounding, &mut near);
+            found.exposed[number] = borders_others || neighbours::borders_cut(mesh, element, &around);
+            for &other in near.iter().filter(|&&other| other as usize > number) {
                 let second = &mesh.elements[other as usize];
                 let key = (
                     element.size,
@@ -107,7 +109,7 @@ impl Interfaces {
                     found.kinds.push(InterfaceKind::between(element, second, &bonds));
                     found.kinds.len() as u32 - 1
                 });
-                let severed = is_severed(mesh, element, second, &around);
+                let severed = neighbours::is_severed(mesh, element, second, &around);
                 found.pairs.push(Interface {
                     first: number as u32,
                     second: other,
@@ -116,44 +118,43 @@ impl Interfaces {
                 });
             }
         }
-        let no_strings: Vec<bool> = found.kinds.iter().map(|kind| kind.strings.is_empty()).collect();
-        found.pairs.sort_by_key(|pair| {
-            (
-                no_strings[pair.kind as usize],
-                pair.first as usize / NEAR,
-                pair.kind,
-                pair.first,
-            )
-        });
-        found.index_by_triangle(mesh.triangles);
+        found.sort_and_index(mesh.triangles);
         found
     }
 
-    fn index_by_triangle(&mut self, triangles: usize) {
-        let mut counts = vec![0u32; triangles + 1];
+    /// Puts interfaces that are alike together, and tells each triangle its own. They come by their first triangle and by
+    /// their second, so that every triangle meets its neighbours in rising order.
+    fn sort_and_index(&mut self, triangles: usize) {
+        let no_strings: Vec<bool> = self.kinds.iter().map(|kind| kind.strings.is_empty()).collect();
+        let key = |pair: &Interface| {
+            let near = pair.first as usize / NEAR;
+            (no_strings[pair.kind as usize], near, pair.kind, pair.first)
+        };
+        let mut order: Vec<u32> = (0..self.pairs.len() as u32).collect();
+        order.sort_unstable_by_key(|&found| key(&self.pairs[found as usize]));
+        let mut number_of = vec![0; order.len()];
+        (0..)
+            .zip(&order)
+            .for_each(|(number, &found)| number_of[found as usize] = number);
+
+        let mut start = vec![0u32; triangles + 1];
         for pair in &self.pairs {
-            counts[pair.first as usize + 1] += 1;
-            counts[pair.second as usize + 1] += 1;
+            start[pair.first as usize + 1] += 1;
+            start[pair.second as usize + 1] += 1;
         }
         for k in 0..triangles {
-            counts[k + 1] += counts[k];
+            start[k + 1] += start[k];
         }
-        let mut of_triangle = vec![0; counts[triangles] as usize];
-        let mut next = counts.clone();
-        for (number, pair) in self.pairs.iter().enumerate() {
+        let mut next = start.clone();
+        let mut of_triangle = vec![0; start[triangles] as usize];
+        for (pair, &number) in self.pairs.iter().zip(&number_of) {
             for owner in [pair.first as usize, pair.second as usize] {
-                of_triangle[next[owner] as usize] = number as u32;
+                of_triangle[next[owner] as usize] = number;
                 next[owner] += 1;
             }
         }
-        for triangle in 0..triangles {
-            let neighbour = |&number: &u32| {
-                let pair = self.pairs[number as usize];
-                pair.first ^ pair.second ^ triangle as u32
-            };
-            of_triangle[counts[triangle] as usize..counts[triangle + 1] as usize].sort_unstable_by_key(neighbour);
-        }
-        self.start = counts;
+        self.pairs = order.into_iter().map(|found| self.pairs[found as usize]).collect();
+        self.start = start;
         self.of_triangle = of_triangle;
     }
 
@@ -176,75 +177,6 @@ impl Interfaces {
     pub fn strings(&self, interface: usize) -> &[BondString] {
         &self.kinds[self.pairs[interface].kind as usize].strings
     }
-}
-
-/// The sites within reach of an element, relative to its anchor, row by row.
-fn surrounding(element: &Element, around: &[[i32; 2]]) -> Vec<[i32; 2]> {
-    let origin = [-element.column, -element.row];
-    let reached = border(element).flat_map(|site| around.iter().map(move |&vector| shift(site, vector, 1)));
-    let outside = reached.filter(|&site| !element.contains(site));
-    let mut sites: Vec<[i32; 2]> = outside.map(|site| shift(site, origin, 1)).collect();
-    sites.sort_unstable_by_key(|&[column, row]| [row, column]);
-    sites.dedup();
-    sites
-}
-
-/// Lists the triangles that hold sites in the surrounding of one; returns whether it also meets atoms or free surface.
-fn collect_neighbours(mesh: &Mesh, element: &Element, surrounding: &[[i32; 2]], neighbours: &mut Vec<u32>) -> bool {
-    neighbours.clear();
-    let mut exposed = false;
-    for &offset in surrounding {
-        match mesh.owner_of([element.column + offset[0], element.row + offset[1]]) {
-            Some(other) if other < mesh.triangles => {
-                if neighbours.last() != Some(&(other as u32)) {
-                    neighbours.push(other as u32);
-                }
-            }
-            _ => exposed = true,
-        }
-    }
-    neighbours.sort_unstable();
-    neighbours.dedup();
-    exposed
-}
-
-/// Whether a cut severs an element from a site within reach that a triangle holds.
-fn borders_cut(mesh: &Mesh, element: &Element, around: &[[i32; 2]]) -> bool {
-    if !is_near_cut(mesh, element, around) {
-        return false;
-    }
-    let pairs = border(element).flat_map(|site| around.iter().map(move |&vector| (site, shift(site, vector, 1))));
-    pairs
-        .filter(|&(site, other)| mesh.severed(site, other))
-        .any(|(_, other)| mesh.owner_of(other).is_some_and(|owner| owner < mesh.triangles))
-}
-
-/// The sites along the edges of an element.
-fn border(element: &Element) -> impl Iterator<Item = [i32; 2]> + use<> {
-    let element = *element;
-    let locals = element
-        .locals()
-        .filter(move |&[p, q]| p == 0 || q == 0 || p + q == element.size - 1);
-    locals.map(move |local| element.site(local))
-}
-
-/// Whether an element has sites so near to the cut that one of these vectors may cross it.
-fn is_near_cut(mesh: &Mesh, element: &Element, around: &[[i32; 2]]) -> bool {
-    let Some(cut) = mesh.cut else { return false };
-    let reach = around.iter().map(|vector| vector[1].abs()).max().unwrap_or(0);
-    let [lowest, highest] = [element.lowest_row(), element.lowest_row() + element.size - 1];
-    lowest < cut.row + reach && highest >= cut.row - reach
-}
-
-fn is_severed(mesh: &Mesh, first: &Element, second: &Element, around: &[[i32; 2]]) -> bool {
-    let Some(cut) = mesh.cut else { return false };
-    if !is_near_cut(mesh, first, around) || !is_near_cut(mesh, second, around) {
-        return false;
-    }
-    let pairs = first
-        .sites()
-        .flat_map(|site| around.iter().map(move |v| (site, [site[0] + v[0], site[1] + v[1]])));
-    pairs.into_iter().any(|(a, b)| second.contains(b) && cut.severs(a, b))
 }
 
 impl InterfaceKind {
@@ -386,6 +318,26 @@ mod tests {
             });
             assert_eq!(listed, expected.count(), "element {element}");
         }
+    }
+
+    #[test]
+    fn every_triangle_meets_its_neighbours_in_rising_order_and_alike_ones_follow_each_other() {
+        let mesh = mesh(10, Some(30.0));
+        let interfaces = Interfaces::new(&mesh, 1.4);
+        for triangle in 0..mesh.triangles {
+            let pairs = interfaces
+                .of(triangle)
+                .iter()
+                .map(|&number| interfaces.pairs[number as usize]);
+            let met: Vec<u32> = pairs.map(|pair| pair.first ^ pair.second ^ triangle as u32).collect();
+            assert!(met.is_sorted() && met.len() > 2);
+        }
+        let has_strings = |pair: &Interface| !interfaces.kinds[pair.kind as usize].strings.is_empty();
+        assert!(interfaces.pairs.is_sorted_by_key(|pair| !has_strings(pair)));
+        let runs = interfaces
+            .pairs
+            .chunk_by(|a, b| a.kind == b.kind && b.first == a.first + 1);
+        assert!(8 * runs.count() < interfaces.pairs.len() * 3, "long runs");
     }
 
     #[test]

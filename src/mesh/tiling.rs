@@ -26,10 +26,12 @@ pub fn tile(sites: &SiteSet, target: Vec<u16>, breaks: &[i32]) -> Vec<Element> {
     for &size in sizes.iter().filter(|&&size| size >= SMALLEST_TRIANGLE) {
         tiling.lay_rows(size);
     }
+    let mut free = tiling.free_sites();
     for size in (SMALLEST_TRIANGLE..sizes[0].max(SMALLEST_TRIANGLE)).rev() {
-        tiling.fill(size);
+        tiling.fill(size, &free);
+        free.retain(|&site| tiling.is_free(site));
     }
-    tiling.fill_with_atoms();
+    tiling.elements.extend(free.into_iter().map(Element::atom));
     let mut elements = tiling.elements;
     elements.sort_by_key(|e| (-e.size, e.lowest_row(), -e.sign, e.lowest_column()));
     elements
@@ -105,9 +107,8 @@ impl Tiling<'_> {
     }
 
     /// Puts triangles of one size wherever free sites allow, scanning site by site.
-    fn fill(&mut self, size: i32) {
-        let free: Vec<[i32; 2]> = self.wanting(size).collect();
-        for [column, row] in free {
+    fn fill(&mut self, size: i32, free: &[[i32; 2]]) {
+        for &[column, row] in free {
             for sign in [1, -1] {
                 let element = Element {
                     size,
@@ -115,30 +116,27 @@ impl Tiling<'_> {
                     column,
                     row,
                 };
-                if self.crosses_a_break(&element) {
-                    continue;
-                }
-                if self
-                    .finest_if_free(&element)
-                    .is_some_and(|finest| i32::from(finest) >= size)
-                {
+                let fits = !self.crosses_a_break(&element)
+                    && self
+                        .finest_if_free(&element)
+                        .is_some_and(|finest| i32::from(finest) >= size);
+                if fits {
                     self.cover(element);
                 }
             }
         }
     }
 
-    fn fill_with_atoms(&mut self) {
-        let free: Vec<[i32; 2]> = self.wanting(1).collect();
-        self.elements.extend(free.into_iter().map(Element::atom));
+    fn free_sites(&self) -> Vec<[i32; 2]> {
+        let numbered = self.sites.iter().zip(&self.covered);
+        numbered
+            .filter(|(_, covered)| !**covered)
+            .map(|(site, _)| site)
+            .collect()
     }
 
-    /// Free sites that allow elements of this size.
-    fn wanting(&self, size: i32) -> impl Iterator<Item = [i32; 2]> + '_ {
-        let numbered = self.sites.iter().enumerate();
-        numbered
-            .filter(move |&(n, _)| !self.covered[n] && i32::from(self.target[n]) >= size)
-            .map(|(_, site)| site)
+    fn is_free(&self, site: [i32; 2]) -> bool {
+        self.sites.index(site).is_some_and(|number| !self.covered[number])
     }
 
     /// The finest element that a site of this one wants; `None` unless all are there and free.

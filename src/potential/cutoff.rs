@@ -112,17 +112,20 @@ impl<S: PairShape> CutPotential<S> {
             switched |= squared > self.squared_switch;
         }
         let [mut energies, mut slopes] = [[0.0; SIDE]; 2];
-        for side in 0..SIDE {
-            let squared = squared_distances[side];
-            [energies[side], slopes[side]] = if switched {
-                let PairValue { energy, slope } = self.evaluate(squared);
-                [energy, slope]
-            } else if squared >= self.squared_cutoff {
-                [0.0, 0.0]
-            } else {
+        if switched {
+            for side in 0..SIDE {
+                let PairValue { energy, slope } = self.evaluate(squared_distances[side]);
+                energies[side] = energy;
+                slopes[side] = slope;
+            }
+        } else {
+            for side in 0..SIDE {
+                let squared = squared_distances[side];
                 let (energy, slope) = self.shape.energy_and_slope(squared);
-                [energy - self.shift, slope]
-            };
+                let is_within = squared < self.squared_cutoff;
+                energies[side] = if is_within { energy - self.shift } else { 0.0 };
+                slopes[side] = if is_within { slope } else { 0.0 };
+            }
         }
         [energies, slopes]
     }
@@ -155,7 +158,6 @@ impl<S: PairShape> CutPotential<S> {
     }
 
     /// phi'' of the cut potential; zero from the cutoff on.
-    #[inline]
     pub fn curvature(&self, distance: f64) -> f64 {
         if distance >= self.cutoff {
             return 0.0;
@@ -173,15 +175,16 @@ impl<S: PairShape> CutPotential<S> {
             switched |= squared > self.squared_switch;
         }
         let mut curvatures = [0.0; SIDE];
-        for (curvature, squared) in curvatures.iter_mut().zip(squared_distances) {
-            let distance = squared.sqrt();
-            *curvature = if switched {
-                self.curvature(distance)
-            } else if distance >= self.cutoff {
-                0.0
-            } else {
-                self.shape.curvature(distance)
-            };
+        if switched {
+            for side in 0..SIDE {
+                curvatures[side] = self.curvature(squared_distances[side].sqrt());
+            }
+        } else {
+            for side in 0..SIDE {
+                let distance = squared_distances[side].sqrt();
+                let uncut = self.shape.curvature(distance);
+                curvatures[side] = if distance >= self.cutoff { 0.0 } else { uncut };
+            }
         }
         curvatures
     }

@@ -20,8 +20,10 @@ impl PairShape for LennardJones {
 
     #[inline(always)]
     fn curvature(&self, distance: f64) -> f64 {
-        let sixth = (self.sigma / distance).powi(6);
-        24.0 * self.epsilon * sixth * (26.0 * sixth - 7.0) / (distance * distance)
+        let inverse = 1.0 / (distance * distance);
+        let ratio = self.sigma * self.sigma * inverse;
+        let sixth = ratio * ratio * ratio;
+        24.0 * self.epsilon * sixth * (26.0 * sixth - 7.0) * inverse
     }
 
     fn minimum(&self) -> f64 {

@@ -47,6 +47,7 @@ const FEWEST_PROBES: f64 = 10.0;
 /// Estimates cases, and remembers what many cases of one study have in common.
 #[derive(Default)]
 pub struct Estimator {
+    crystals: Vec<(case::Material, Material)>,
     /// Meshes without their cracks, which no element minds.
     meshes: Vec<(Plan, Census)>,
     /// Stability limits, ps, of elements of one size.
@@ -65,12 +66,21 @@ struct Crystal {
 impl Estimator {
     /// The estimate of a case; an error is physical nonsense that only the mesh or the material reveals.
     pub fn estimate(&mut self, case: &Case) -> Result<Estimate, SetupError> {
-        let material = material(case)?;
+        let material = self.material(case)?;
         let plan = mesh_plan(case, &material)?;
         refuse_what_does_not_fit(&plan)?;
         let census = self.census(plan);
         let stability_limit = self.stability_limit(case, &census, &material)?;
         estimate_with(case, &material, &census, stability_limit)
+    }
+
+    fn material(&mut self, case: &Case) -> Result<Material, SetupError> {
+        if let Some((_, known)) = self.crystals.iter().find(|(known, _)| *known == case.material) {
+            return Ok(*known);
+        }
+        let found = material(case)?;
+        self.crystals.push((case.material.clone(), found));
+        Ok(found)
     }
 
     fn census(&mut self, plan: Plan) -> Census {

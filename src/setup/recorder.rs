@@ -20,7 +20,6 @@ pub struct Recorder<'a> {
     /// Probes since the last segment, and the number of the first of them.
     part: Series,
     first_probe: u64,
-    reference: [Vec<f64>; 2],
     site_volume: f64,
     account: Account,
     tell: &'a mut (dyn FnMut(&Progress) + Send),
@@ -38,7 +37,6 @@ impl<'a> Recorder<'a> {
             case_id,
             part,
             first_probe: solver.probe_count(),
-            reference: solver.mesh().node_positions(),
             site_volume: site_volume(solver.setting()),
             account: Account::open(folder),
             tell,
@@ -68,14 +66,12 @@ impl<'a> Recorder<'a> {
         let Moment {
             mesh, state, measure, ..
         } = moment;
-        let planes = |x: &[f64], y: &[f64]| x.iter().zip(y).map(|(&x, &y)| [x, y]).collect();
-        let shift = |axis: usize| -> Vec<f64> {
-            state.position[axis]
-                .iter()
-                .zip(&self.reference[axis])
-                .map(|(now, then)| now - then)
-                .collect()
-        };
+        let reference = mesh
+            .elements
+            .iter()
+            .flat_map(Element::corners)
+            .map(|site| mesh.reference(site));
+        let displacement = reference.zip(&state.position[0]).zip(&state.position[1]);
         let stress = mesh.elements.iter().zip(&measure.virial).map(|(element, virial)| {
             let volume = element.site_count() as f64 * self.site_volume;
             virial.map(|component| component / volume)
@@ -84,8 +80,12 @@ impl<'a> Recorder<'a> {
             step: moment.step,
             time: moment.time,
             strain: moment.strain,
-            displacement: planes(&shift(0), &shift(1)),
-            velocity: planes(&state.velocity[0], &state.velocity[1]),
+            displacement: displacement.map(|((then, x), y)| [x - then[0], y - then[1]]).collect(),
+            velocity: state.velocity[0]
+                .iter()
+                .zip(&state.velocity[1])
+                .map(|(&x, &y)| [x, y])
+                .collect(),
             stress: stress.collect(),
             damage: damage(mesh, moment.broken),
         }

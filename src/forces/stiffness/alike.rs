@@ -125,7 +125,8 @@ fn stiffness<S: PairShape>(forces: &Forces, law: &CutPotential<S>, from: usize) 
         for SampledString { string, samples } in forces.strings.of(side.kind, is_hardly_open) {
             let [a, b] = [first.at(string.first), second.at(string.second)];
             let [da, db] = [first.vector(string.first_step), second.vector(string.second_step)];
-            let moments = moments(law, [0, 1].map(|k| b[k] - a[k]), [0, 1].map(|k| db[k] - da[k]), samples);
+            let between = [b[0] - a[0], b[1] - a[1]];
+            let moments = moments(law, between, [db[0] - da[0], db[1] - da[1]], samples);
             let (site, step) = if side.is_first {
                 (string.first, string.first_step)
             } else {
@@ -153,10 +154,13 @@ fn moments<S: PairShape>(
 ) -> [Hessian; 3] {
     let mut moments = [Hessian::default(); 3];
     for &Sample { at, weight } in samples {
-        let vector = [0, 1].map(|axis| step[axis].times_add(at, start[axis]));
+        let vector = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
         let hessian = hessian(law, vector, weight, |stiffness| 2.0 * stiffness.max(0.0));
-        for (moment, power) in moments.iter_mut().zip([1.0, at, at * at]) {
-            (0..3).for_each(|k| moment[k] = hessian[k].times_add(power, moment[k]));
+        let powers = [1.0, at, at * at];
+        for order in 0..3 {
+            for k in 0..3 {
+                moments[order][k] = hessian[k].times_add(powers[order], moments[order][k]);
+            }
         }
     }
     moments
@@ -173,9 +177,12 @@ fn hessian<S: PairShape>(
     let squared = x.mul_add(x, y * y);
     let curvatures = law.curvatures(squared.0);
     let slopes = law.slopes(squared.0);
-    let along = Lanes::<WIDTH>::each(|lane| bound(count * curvatures[lane]));
-    let across = Lanes::<WIDTH>::each(|lane| bound(count * slopes[lane]));
-    let difference = Lanes::<WIDTH>::each(|lane| (along[lane] - across[lane]) / squared[lane]);
+    let [mut along, mut across, mut difference] = [Lanes::<WIDTH>::default(); 3];
+    for lane in 0..WIDTH {
+        along.0[lane] = bound(count * curvatures[lane]);
+        across.0[lane] = bound(count * slopes[lane]);
+        difference.0[lane] = (along[lane] - across[lane]) / squared[lane];
+    }
     [
         (difference * x).mul_add(x, across),
         (difference * y).mul_add(y, across),
@@ -186,9 +193,11 @@ fn hessian<S: PairShape>(
 impl Stiffness {
     #[inline(always)]
     fn add(&mut self, weight: impl Fn([usize; 2]) -> f64, hessian: &Hessian) {
-        for (block, nodes) in self.0.iter_mut().zip(BLOCKS) {
-            let weight = weight(nodes);
-            (0..3).for_each(|k| block[k] = hessian[k].times_add(weight, block[k]));
+        for block in 0..BLOCKS.len() {
+            let weight = weight(BLOCKS[block]);
+            for k in 0..3 {
+                self.0[block][k] = hessian[k].times_add(weight, self.0[block][k]);
+            }
         }
     }
 
