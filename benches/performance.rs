@@ -3,6 +3,12 @@
 //! Every part leaves its numbers as `reports/performance/*.csv`; `docs/performance.md` shows those files. Names of parts
 //! as arguments measure only these: `cargo bench --bench performance -- steps growth`.
 
+#![allow(
+    clippy::print_stdout,
+    clippy::print_stderr,
+    reason = "a program for a terminal: the table on standard output, how far it is on standard error"
+)]
+
 mod performance {
     pub mod clock;
     pub mod commands;

@@ -1,17 +1,26 @@
-//! Model A from its study file to its report, on one core.
+//! Model A from its study file to its report, on one core; all of it, or as much as takes two minutes.
 
 use std::fs;
 use std::path::Path;
 
+use cgaft::setup::Estimator;
 use serde_json::Value;
 
 use super::demand::{self, Demand};
 use super::steps::MILLIONS;
-use super::{clock, commands, page, specimens};
+use super::{commands, page, specimens};
+
+/// Seconds of a core that the run may take; what takes longer is cut short, and its row says where.
+const LONGEST: f64 = 120.0;
+
+/// Where model A ends, and the strain from picture to picture, as the study has them.
+const WHOLE: f64 = 1.2;
+const PICTURES: f64 = 20.0;
 
 pub fn measure() {
-    let [study, flag, results] = commands::in_scratch("model-a");
-    let before = clock::children_seconds();
+    let [_, flag, results] = commands::in_scratch("model-a");
+    let end = reachable_strain();
+    let study = study_to(end, &["A"]);
     let run = [
         "study",
         "run",
@@ -25,8 +34,7 @@ pub fn measure() {
         &flag,
         &results,
     ];
-    commands::cgaft(&run);
-    let core_seconds = clock::children_seconds() - before;
+    let core_seconds = commands::cgaft(&run);
     let outcome = outcome(&page::scratch().join("model-a/cases/A"));
     let atoms = 7_048_800.0;
     let phases = outcome["cost"].as_array().expect("the phases are there");
@@ -50,7 +58,12 @@ pub fn measure() {
         least: 500.0,
         aim: 1500.0,
     };
-    demand::record(demand::MODEL_A, 1e-6 * atoms * steps / core_seconds, MILLIONS, demand);
+    let unit = if end < WHOLE {
+        format!("{MILLIONS}, to {end:.3} %")
+    } else {
+        MILLIONS.to_owned()
+    };
+    demand::record(demand::MODEL_A, 1e-6 * atoms * steps / core_seconds, &unit, demand);
     let output = phases.iter().find(|phase| phase["name"] == "output").map(seconds);
     let demand = Demand::Below {
         most: 3.0,
@@ -69,9 +82,25 @@ pub fn measure() {
     };
     demand::record(demand::MEMORY_REPRESENTED, memory / atoms, "bytes", demand);
 
-    let report = commands::cgaft(&["study", "report", &five_of_them(), &flag, &results]);
-    demand::record(demand::REPORT, report, "s", Demand::Below { most: 10.0, aim: None });
+    // Five names of one run: as much to read, to analyse and to draw as five models.
+    let five = study_to(end, &["A", "B", "C", "D", "E"]);
+    let report = commands::cgaft(&["study", "report", &five, &flag, &results]);
+    demand::record(
+        demand::REPORT,
+        report,
+        commands::SECONDS,
+        Demand::Below { most: 10.0, aim: None },
+    );
     measure_memory_of_atoms();
+}
+
+/// The strain, in percent, that a run reaches in the time it may take.
+fn reachable_strain() -> f64 {
+    let case = specimens::case("model-a", "A");
+    let estimate = Estimator::default().estimate(&case).expect("the case is sound");
+    let step = specimens::measure("elements-7M", 0.0).step;
+    let share = LONGEST / (step * estimate.steps as f64);
+    (WHOLE * share).min(WHOLE)
 }
 
 /// What a published run tells of itself.
@@ -81,13 +110,19 @@ fn outcome(run: &Path) -> Value {
     manifest["outcome"].clone()
 }
 
-/// A study of five cases with the run of model A, as many as there are models, in a file of its own.
-fn five_of_them() -> String {
+/// The study to this strain, in percent, with these names for its case, in a file of its own.
+fn study_to(end: f64, cases: &[&str]) -> String {
     let text = fs::read_to_string(specimens::study("model-a")).expect("the study is there");
-    let five = text.replace("  A: {}\n", "  A: {}\n  B: {}\n  C: {}\n  D: {}\n  E: {}\n");
-    assert_ne!(five, text, "the study ends with its only case");
-    let path = page::scratch().join("five.yaml");
-    fs::write(&path, five).expect("the scratch folder can be written");
+    let (base, _) = text.split_once("cases:\n").expect("it has cases");
+    let base = base.replace(&format!("strain: {WHOLE} %"), &format!("strain: {end:.5} %"));
+    let base = base.replace(
+        "every: 0.06 % strain",
+        &format!("every: {:.5} % strain", end / PICTURES),
+    );
+    let cases: String = cases.iter().map(|case| format!("  {case}: {{}}\n")).collect();
+    let path = page::scratch().join("model-a.yaml");
+    fs::create_dir_all(page::scratch()).expect("the scratch folder can be written");
+    fs::write(&path, format!("{base}cases:\n{cases}")).expect("the scratch folder can be written");
     path.display().to_string()
 }
 

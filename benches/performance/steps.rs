@@ -1,8 +1,8 @@
 //! Steps of the intact mesh, the same on two threads, and what comes before the first step.
 
-use super::clock;
 use super::demand::{self, Demand};
 use super::specimens;
+use super::{clock, commands};
 
 /// What a represented atom-step a second is counted in.
 pub const MILLIONS: &str = "million atom-steps a core-second";
@@ -71,7 +71,7 @@ pub fn measure_set_up() {
         most: 2.0,
         aim: Some(0.5),
     };
-    demand::record(demand::SET_UP, large.0, "s of a core", most);
+    demand::record(demand::SET_UP, large.0, commands::SECONDS, most);
     // Linear, but for caches that the large specimen does not fit into.
     let linear = Demand::Below { most: 1.5, aim: None };
     demand::record(demand::SET_UP_GROWTH, large.1 / small.1, "times", linear);
