@@ -27,13 +27,14 @@ use performance::{clock, commands, demand, growth, model_a, page, peer, roofline
 /// A part, and how it is measured.
 type Part = (&'static str, fn());
 
-const PARTS: [Part; 7] = [
+const PARTS: [Part; 8] = [
     ("steps", steps::measure),
     ("peer", peer::measure),
     ("set-up", steps::measure_set_up),
     ("growth", growth::measure),
     ("commands", commands::measure),
     ("model-a", model_a::measure),
+    ("memory", model_a::measure_memory_of_atoms),
     ("roofline", roofline::measure),
 ];
 
