@@ -10,7 +10,9 @@ const TURNS: usize = 3;
 
 pub fn measure() {
     let folder = page::scratch().join("lammps");
-    fs::create_dir_all(&folder).expect("the scratch folder can be written");
+    if folder.exists() {
+        fs::remove_dir_all(&folder).expect("the scratch folder can be written");
+    }
     let into = folder.display().to_string();
     let study = specimens::study("running-crack").display().to_string();
     commands::cgaft(&["export", "lammps", &study, "--case", "atoms", "--into", &into]);
