@@ -51,23 +51,17 @@ impl Forces {
 
     fn measure_with<S: PairShape>(&self, law: &CutPotential<S>, position: &Planes) -> Measure {
         let across = strings::sum(self, law);
-        let chunks = self.mesh.elements.len().div_ceil(CHUNK);
-        let of_chunk = |chunk: usize| {
-            let elements = chunk * CHUNK..self.mesh.elements.len().min((chunk + 1) * CHUNK);
-            elements::sum(self, law, &across.virial, elements, position)
-        };
-        let parts: Vec<Measure> = (0..chunks).into_par_iter().map(of_chunk).collect();
-        let mut total = Measure {
-            energy: across.energy,
-            pairs: across.pairs,
-            virial: Vec::with_capacity(self.mesh.elements.len()),
-        };
-        for part in parts {
-            total.energy += part.energy;
-            total.pairs += part.pairs;
-            total.virial.extend(part.virial);
-        }
-        total
+        let mut virial = vec![[0.0; 3]; self.mesh.elements.len()];
+        let chunks = virial.par_chunks_mut(CHUNK).enumerate();
+        let parts: Vec<[f64; 2]> = chunks
+            .map(|(chunk, virial)| elements::sum(self, law, &across.virial, chunk * CHUNK, virial, position))
+            .collect();
+        // In the order of the elements, so that threads leave no trace.
+        let start = [across.energy, across.pairs];
+        let [energy, pairs] = parts
+            .into_iter()
+            .fold(start, |sum, part| [sum[0] + part[0], sum[1] + part[1]]);
+        Measure { energy, pairs, virial }
     }
 
     /// Calls with every bond of an element: those inside it once, those to other elements as seen from its side.

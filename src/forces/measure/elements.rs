@@ -1,10 +1,7 @@
 //! What elements hold: bonds inside them, their part of the strings, and contacts.
 
-use std::ops::Range;
-
 use multiversion::multiversion;
 
-use super::Measure;
 use super::strings::add_bond;
 use crate::forces::affine::Affine;
 use crate::forces::bulk::{BulkBond, Reach};
@@ -16,55 +13,63 @@ use crate::potential::{CutPotential, PairShape};
 /// Triangles computed at a time.
 const WIDTH: usize = 8;
 
-/// The sums over some elements, to which strings give half of theirs; `across` is what each interface holds.
+/// Energy and pairs of the elements from this number on, one for each place of `virial`, which it fills. Strings give
+/// half of theirs to either side; `across` is what each interface holds.
 #[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
 pub fn sum<S: PairShape>(
     forces: &Forces,
     law: &CutPotential<S>,
     across: &[[f64; 3]],
-    elements: Range<usize>,
+    first: usize,
+    virial: &mut [[f64; 3]],
     position: &Planes,
-) -> Measure {
-    let mut part = Measure {
-        virial: Vec::with_capacity(elements.len()),
-        ..Measure::default()
+) -> [f64; 2] {
+    let mut part = Part {
+        energy: 0.0,
+        pairs: 0.0,
+        virial,
     };
     let shapes = &forces.mesh.elements;
-    let triangles = elements.start..elements.end.min(forces.mesh.triangles);
-    let mut at = elements.start;
-    while at < triangles.end {
-        if at + WIDTH <= triangles.end && shapes[at].size == shapes[at + WIDTH - 1].size {
-            add_bulk::<S, WIDTH>(forces, law, at, position, &mut part);
+    let end = first + part.virial.len();
+    let triangles = end.min(forces.mesh.triangles);
+    let mut at = first;
+    while at < triangles {
+        if at + WIDTH <= triangles && shapes[at].size == shapes[at + WIDTH - 1].size {
+            add_bulk::<S, WIDTH>(forces, law, at, at - first, position, &mut part);
             at += WIDTH;
         } else {
-            add_bulk::<S, 1>(forces, law, at, position, &mut part);
+            add_bulk::<S, 1>(forces, law, at, at - first, position, &mut part);
             at += 1;
         }
     }
-    part.virial.resize(elements.len(), [0.0; 3]);
-    for (place, element) in elements.enumerate() {
+    for (place, element) in (first..end).enumerate() {
         if element < forces.mesh.triangles {
             let virial = &mut part.virial[place];
-            let held = forces
-                .interfaces
-                .of(element)
-                .iter()
-                .filter_map(|&number| across.get(number as usize));
+            let numbers = forces.interfaces.of(element).iter();
+            let held = numbers.filter_map(|&number| across.get(number as usize));
             held.for_each(|shared| (0..3).for_each(|k| virial[k] += 0.5 * shared[k]));
         }
         add_contacts(forces, law, element, place, &mut part);
     }
-    part
+    [part.energy, part.pairs]
 }
 
-/// Appends what is inside some triangles of one size.
+/// The sums of consecutive elements.
+struct Part<'a> {
+    energy: f64,
+    pairs: f64,
+    virial: &'a mut [[f64; 3]],
+}
+
+/// What is inside some triangles of one size.
 #[inline(always)]
 fn add_bulk<S: PairShape, const W: usize>(
     forces: &Forces,
     law: &CutPotential<S>,
     from: usize,
+    place: usize,
     position: &Planes,
-    part: &mut Measure,
+    part: &mut Part,
 ) {
     let size = forces.mesh.elements[from].size;
     let map: MapLanes<W> = forces.maps.lanes(from);
@@ -88,7 +93,7 @@ fn add_bulk<S: PairShape, const W: usize>(
         let [energy, pairs, xx, yy, xy] = sums.map(|component| component[lane]);
         part.energy += energy;
         part.pairs += pairs;
-        part.virial.push([xx, yy, xy]);
+        part.virial[place + lane] = [xx, yy, xy];
     }
 }
 
@@ -106,14 +111,8 @@ fn add_bonds<S: PairShape, const W: usize>(
 
 /// Adds the bonds of an element that a search has found, half of each.
 #[inline(always)]
-fn add_contacts<S: PairShape>(
-    forces: &Forces,
-    law: &CutPotential<S>,
-    element: usize,
-    place: usize,
-    part: &mut Measure,
-) {
-    let Measure { energy, pairs, virial } = part;
+fn add_contacts<S: PairShape>(forces: &Forces, law: &CutPotential<S>, element: usize, place: usize, part: &mut Part) {
+    let Part { energy, pairs, virial } = part;
     let virial = &mut virial[place];
     for site in forces.contacts.sites_of(element) {
         forces.contacts.for_each_partner(site, |[x, y], severed, count| {
