@@ -31,10 +31,9 @@ pub struct Roof {
     pub cache: f64,
 }
 
-const CASES: [&str; 6] = [
+const CASES: [&str; 5] = [
     "elements-7M",
     "elements-7M-gauss2",
-    "elements-1M",
     "elements-far",
     "atoms-1M",
     "atoms-far",

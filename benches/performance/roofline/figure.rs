@@ -44,7 +44,7 @@ fn draw_on(roof: &Roof, points: &[Point], path: &Path) -> Result<(), Box<dyn std
         let line = [SPAN[0], ridge, SPAN[1]].map(|x| (x, roof.flops.min(x * bandwidth)));
         chart.draw_series(LineSeries::new(line, ROOF.stroke_width(2)))?;
         let label = format!("{name} {bandwidth:.0} GB/s");
-        let place = (1.15 * SPAN[0], 1.25 * SPAN[0] * bandwidth);
+        let place = (1.4 * SPAN[0], SPAN[0] * bandwidth);
         chart.draw_series([Text::new(label, place, text.clone())])?;
     }
     let label = format!("multiply-adds {:.0} Gflop/s", roof.flops);
