@@ -4,22 +4,21 @@
 //! whose interface is intact along its strings (`interface`), and everywhere else by a neighbour search (`contact`).
 //! `referee` sums over all pairs without any of this.
 //!
-//! Every sum runs in an order fixed by the numbers of elements, interfaces and sites, so that results do not depend
-//! on the number of threads or on when neighbour lists were made.
+//! Every sum runs in an order fixed by the mesh, so that results do not depend on the number of threads or on when
+//! neighbour lists were made.
 
 mod affine;
-mod assembly;
 mod bonds;
 mod bulk;
 mod contact;
-mod intact;
 mod interface;
-mod lanes;
 mod maps;
 mod measure;
 pub mod referee;
+mod regular;
 mod stiffness;
 mod summation;
+mod tile;
 
 pub use affine::{Affine, site_position};
 pub use measure::Measure;
@@ -34,10 +33,13 @@ use crate::mesh::interfaces::Interfaces;
 use crate::potential::{CutPotential, PairShape, with_law};
 use bulk::BulkBonds;
 use contact::Contacts;
-use intact::IntactForces;
-use interface::State;
+use contact::lattice::AtomLattice;
+use interface::{IntactLimit, Pair, State};
 use maps::Maps;
+use pulp::Arch;
+use rayon::prelude::*;
 use summation::SampledStrings;
+use tile::{Scratch, Tile};
 
 /// Node positions or forces: x and y, one entry a node.
 pub type Planes = [Vec<f64>; 2];
@@ -72,11 +74,17 @@ pub struct Forces {
     bulk: BulkBonds,
     /// How the interfaces stand; a state is never left for a tighter one.
     states: Vec<State>,
+    atoms: AtomLattice,
     contacts: Contacts,
     maps: Maps,
-    intact: IntactForces,
+    tiles: Vec<Tile>,
+    limit: IntactLimit,
+    /// Interfaces that are tested in every step.
+    watched: Vec<u32>,
     /// No sound coordinate is larger, nm.
     farthest: f64,
+    /// The instructions that the processor has.
+    arch: Arch,
     searches: u64,
     search_time: Duration,
 }
@@ -104,13 +112,15 @@ impl Forces {
         let bulk = BulkBonds::new(&mesh, listed, summation);
         let strings = SampledStrings::new(&interfaces, summation);
         let maps = Maps::new(&mesh);
-        let intact = IntactForces::new(&interfaces, &strings);
+        let tiles = tile::tiles(&mesh, &interfaces, &strings);
+        let limit = IntactLimit::new(&material, triangular::next_length(listed));
+        let atoms = AtomLattice::new(&mesh, listed, limit.regular);
         let reference = mesh.node_positions();
         let largest = reference
             .iter()
             .flatten()
             .fold(0.0, |most: f64, place| most.max(place.abs()));
-        Self {
+        let mut forces = Self {
             mesh,
             material,
             summation,
@@ -118,13 +128,19 @@ impl Forces {
             strings,
             bulk,
             states,
+            atoms,
             contacts: Contacts::default(),
             maps,
-            intact,
+            tiles,
+            limit,
+            watched: Vec::new(),
             farthest: Self::FARTHEST * largest,
+            arch: Arch::new(),
             searches: 0,
             search_time: Duration::ZERO,
-        }
+        };
+        forces.watch();
+        forces
     }
 
     pub fn mesh(&self) -> &Mesh {
@@ -133,12 +149,6 @@ impl Forces {
 
     pub fn material(&self) -> &Material {
         &self.material
-    }
-
-    /// Length in spacings of the shortest bonds that strings and bulk do not list.
-    fn unlisted_length(&self) -> f64 {
-        let cutoff = self.material.interaction.cutoff() / self.material.spacing;
-        triangular::next_length(cutoff + Self::LISTED_BEYOND_CUTOFF)
     }
 
     /// Numbers of the interfaces that have left the intact path, ascending: the only memory that a restart must keep.
@@ -153,6 +163,8 @@ impl Forces {
         self.states.fill(State::Tight);
         open.iter()
             .for_each(|&number| self.states[number as usize] = State::Open);
+        self.watch();
+        self.atoms.calm();
         self.contacts.forget();
     }
 
@@ -173,50 +185,142 @@ impl Forces {
     /// Forces on all nodes, eV/nm.
     pub fn compute(&mut self, position: &Planes, force: &mut Planes) -> Result<(), ForceError> {
         with_law!(self.material.interaction, law => {
-            self.sum_interfaces(&law, position);
-            self.prepare_contacts(position)?;
-            self.contacts.sum(&law, &self.mesh, self.material.spacing, position);
-            assembly::assemble(self, &law, position, force);
+            self.sum_tiles(&law, position, force);
+            self.sum_contacts(&law, position)?;
         });
+        self.contacts.add_to(&self.mesh, force);
         Ok(())
     }
 
-    /// Brings lists and states of interfaces up to date with the positions without computing forces.
+    /// Brings lists and states of interfaces up to date with the positions without giving forces.
     pub fn refresh(&mut self, position: &Planes) -> Result<(), ForceError> {
-        with_law!(self.material.interaction, law => self.sum_interfaces(&law, position));
-        self.prepare_contacts(position)
+        let mut unused = position.each_ref().map(|axis| vec![0.0; axis.len()]);
+        self.compute(position, &mut unused)
     }
 
-    /// Sums the strings of interfaces that are not open, and notes those that loosen or open.
-    fn sum_interfaces<S: PairShape>(&mut self, law: &CutPotential<S>, position: &Planes) {
-        self.maps.update(position);
-        let [cutoff, spacing] = [law.cutoff(), self.material.spacing];
-        let unlisted = self.unlisted_length();
-        let changed = self.intact.sum(&intact::Field {
-            law,
-            limit: interface::IntactLimit {
-                cutoff,
-                unlisted,
-                spacing,
-                quick: interface::QuickTest::new(unlisted, cutoff, spacing),
-            },
-            mesh: &self.mesh,
-            interfaces: &self.interfaces,
-            strings: &self.strings,
-            states: &self.states,
-            maps: &self.maps,
-            position,
-        });
-        if !changed.is_empty() {
-            changed
-                .into_iter()
-                .for_each(|(number, state)| self.states[number] = state);
+    /// Sums what is found by search or is an atom's, as often as some atom turns out to be disturbed.
+    fn sum_contacts<S: PairShape>(&mut self, law: &CutPotential<S>, position: &Planes) -> Result<(), ForceError> {
+        loop {
+            self.prepare_contacts(position)?;
+            let field = contact::SumField {
+                arch: self.arch,
+                law,
+                regular: self.limit.regular,
+                mesh: &self.mesh,
+            };
+            let disturbed = self.contacts.sum(&field, position);
+            if disturbed.is_empty() {
+                return Ok(());
+            }
+            disturbed.into_iter().for_each(|atom| self.atoms.disturb(atom as usize));
             self.contacts.forget();
         }
     }
 
+    /// Sums what happens inside triangles and between those whose interfaces are not open, and notes interfaces that
+    /// loosen or open.
+    fn sum_tiles<S: PairShape>(&mut self, law: &CutPotential<S>, position: &Planes, force: &mut Planes) {
+        self.maps.update(position);
+        let everywhere = vec![true; self.tiles.len()];
+        let mut irregular = self.sum_these_tiles(law, position, force, &everywhere);
+        loop {
+            let changed = self.changed_interfaces(&irregular, position);
+            if changed.is_empty() {
+                return;
+            }
+            let mut touched = vec![false; self.tiles.len()];
+            let length = tile::tile_length(self.mesh.triangles);
+            for &(number, state) in &changed {
+                let pair = self.interfaces.pairs[number as usize];
+                self.states[number as usize] = state;
+                for triangle in [pair.first, pair.second] {
+                    touched[triangle as usize / length] = true;
+                }
+            }
+            self.watch();
+            self.contacts.forget();
+            irregular.extend(self.sum_these_tiles(law, position, force, &touched));
+        }
+    }
+
+    /// Forces on the triangles of some tiles; returns those whose interfaces may loosen or open.
+    fn sum_these_tiles<S: PairShape>(
+        &self,
+        law: &CutPotential<S>,
+        position: &Planes,
+        force: &mut Planes,
+        these: &[bool],
+    ) -> Vec<u32> {
+        let field = tile::Field {
+            arch: self.arch,
+            law: *law,
+            limit: &self.limit,
+            mesh: &self.mesh,
+            strings: &self.strings,
+            bulk: &self.bulk,
+            states: &self.states,
+            maps: &self.maps,
+            position,
+        };
+        let length = 3 * tile::tile_length(self.mesh.triangles);
+        let [x, y] = force
+            .each_mut()
+            .map(|axis| axis[..3 * self.mesh.triangles].par_chunks_mut(length));
+        let tiles = self.tiles.par_iter().zip(these).zip(x.zip(y));
+        tiles
+            .map_init(Scratch::default, |scratch, ((tile, &asked), (x, y))| {
+                if asked {
+                    tile::sum(&field, tile, scratch, x, y)
+                } else {
+                    Vec::new()
+                }
+            })
+            .flatten_iter()
+            .collect()
+    }
+
+    /// Interfaces to be watched or of these triangles that are no longer what they were, and what they are.
+    fn changed_interfaces(&self, irregular: &[u32], position: &Planes) -> Vec<(u32, State)> {
+        let test = |&number: &u32| {
+            let before = self.states[number as usize];
+            if before == State::Open {
+                return None;
+            }
+            let pair = Pair::new(&self.mesh, &self.interfaces, number as usize, position);
+            let state = pair.state(&self.limit, pair.gap());
+            (state > before).then_some((number, state))
+        };
+        let watched = self.watched.par_iter().with_min_len(CHUNK).filter_map(test);
+        let irregular = irregular.par_iter().with_min_len(CHUNK);
+        let of_irregular =
+            irregular.flat_map_iter(|&triangle| self.interfaces.of(triangle as usize).iter().filter_map(test));
+        watched.chain(of_irregular).collect()
+    }
+
+    /// Finds out which interfaces must be tested in every step: those of triangles with an open interface. What follows from
+    /// regular bonds ends where a crack begins.
+    fn watch(&mut self) {
+        let is_open = |number: usize| self.states[number] == State::Open;
+        let mut bordering = vec![false; self.mesh.triangles];
+        for (_, pair) in self
+            .interfaces
+            .pairs
+            .iter()
+            .enumerate()
+            .filter(|&(number, _)| is_open(number))
+        {
+            bordering[pair.first as usize] = true;
+            bordering[pair.second as usize] = true;
+        }
+        let pairs = self.interfaces.pairs.iter().enumerate();
+        let watched = pairs.filter(|&(number, pair)| {
+            !is_open(number) && (bordering[pair.first as usize] || bordering[pair.second as usize])
+        });
+        self.watched = watched.map(|(number, _)| number as u32).collect();
+    }
+
     fn prepare_contacts(&mut self, position: &Planes) -> Result<(), ForceError> {
-        if self.contacts.are_current(&self.mesh, position) {
+        if self.contacts.are_current(position) {
             return Ok(());
         }
         self.check_sound(position)?;
@@ -227,7 +331,7 @@ impl Forces {
             summation: self.summation,
         };
         let start = Instant::now();
-        self.contacts = Contacts::search(&field, &self.material, position);
+        self.contacts = Contacts::search(&field, &mut self.atoms, &self.material, position);
         self.searches += 1;
         self.search_time += start.elapsed();
         Ok(())
@@ -252,3 +356,6 @@ impl Forces {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

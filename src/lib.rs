@@ -6,6 +6,7 @@ pub mod executor;
 pub mod export;
 pub mod forces;
 pub mod integrator;
+pub mod lanes;
 pub mod lattice;
 pub mod loading;
 pub mod material;

@@ -12,12 +12,35 @@ pub use harmonic_bond::HarmonicBond;
 pub use lennard_jones::LennardJones;
 pub use morse::Morse;
 
+use pulp::Simd;
+
+use crate::lanes::Lanes;
+
 /// The uncut interaction of one pair as a function of its squared distance.
 pub trait PairShape: Copy + Send + Sync + std::fmt::Debug {
     /// Energy phi and phi'(r)/r.
     fn energy_and_slope(&self, squared_distance: f64) -> (f64, f64);
+    /// Energies phi and phi'(r)/r of several pairs at once.
+    #[inline(always)]
+    fn energies_and_slopes<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> [Lanes<L>; 2] {
+        let pairs = squared_distances
+            .numbers()
+            .map(|squared| self.energy_and_slope(squared));
+        [
+            Lanes::each(simd, |lane| pairs[lane].0),
+            Lanes::each(simd, |lane| pairs[lane].1),
+        ]
+    }
     /// Second derivative phi''.
     fn curvature(&self, distance: f64) -> f64;
+    /// phi'' of several pairs at once.
+    #[inline(always)]
+    fn curvatures<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> Lanes<L> {
+        let curvatures = squared_distances
+            .numbers()
+            .map(|squared| self.curvature(squared.sqrt()));
+        Lanes::each(simd, |lane| curvatures[lane])
+    }
     /// Distance at which the energy is lowest.
     fn minimum(&self) -> f64;
 }

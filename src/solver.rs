@@ -11,6 +11,7 @@ mod probe;
 mod resume;
 mod schedule;
 mod setting;
+mod step;
 mod stop;
 mod temperature;
 mod time_step;
@@ -28,8 +29,7 @@ use std::time::{Duration, Instant};
 use crate::analysis::crack::Tracker;
 use crate::analysis::initiation;
 use crate::analysis::series::{BondEvent, Probe, Setting};
-use crate::forces::{ForceError, Forces, Measure, Summation};
-use crate::integrator;
+use crate::forces::{Forces, Measure, Summation};
 use crate::loading::Stretching;
 use crate::material::Material;
 use crate::mesh::Mesh;
@@ -126,6 +126,8 @@ pub struct Solver {
     time_step: f64,
     /// Bound of the time step when it was last looked at, ps.
     stability_limit: f64,
+    /// Half a kick that the velocities still lack, ps.
+    due_kick: Option<f64>,
     power: f64,
     ledger: Ledger,
     probes: Schedule,
@@ -185,6 +187,7 @@ impl Solver {
             time: 0.0,
             time_step,
             stability_limit,
+            due_kick: None,
             power,
             ledger,
             probes,
@@ -263,7 +266,7 @@ impl Solver {
                 self.save(observer)?;
                 last_checkpoint = Instant::now();
             }
-            self.advance()?;
+            self.step_on()?;
             self.observe(observer, false)?;
         }
     }
@@ -314,38 +317,12 @@ impl Solver {
     }
 
     fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
+        self.settle();
         let mut clock = Instant::now();
         observer
             .checkpoint(&self.checkpoint(), &self.cost())
             .map_err(RunError::Output)?;
         self.cost.book(Phase::Output, &mut clock);
-        Ok(())
-    }
-
-    /// One step of central differences.
-    pub fn advance(&mut self) -> Result<(), SolverError> {
-        let mut clock = Instant::now();
-        let time_step = self.time_step;
-        integrator::kick(&mut self.state, 0.5 * time_step);
-        integrator::drift(&mut self.state, time_step);
-        self.step += 1;
-        self.time += time_step;
-        self.cost.book(Phase::Motion, &mut clock);
-        self.forces
-            .compute(&self.state.position, &mut self.state.force)
-            .map_err(|source| self.blow_up(source))?;
-        self.cost.book(Phase::Forces, &mut clock);
-        integrator::kick(&mut self.state, 0.5 * time_step);
-        let power = self.loading.power(&self.state);
-        self.ledger.add_work(0.5 * time_step * (self.power + power));
-        self.power = power;
-        self.cost.book(Phase::Motion, &mut clock);
-        if self.step.is_multiple_of(time_step::CHECK_EVERY) {
-            self.stability_limit = time_step::limit(&self.forces, &self.state);
-            let adapted = self.settings.time_step.adapt(self.time_step, self.stability_limit);
-            self.time_step = adapted.ok_or_else(|| self.step_unstable())?;
-            self.cost.book(Phase::Stability, &mut clock);
-        }
         Ok(())
     }
 
@@ -360,32 +337,5 @@ impl Solver {
 
     fn strain(&self) -> f64 {
         self.loading.strain(self.time)
-    }
-
-    fn step_unstable(&self) -> SolverError {
-        SolverError::StepUnstable {
-            step: self.step,
-            time: self.time,
-            strain: self.strain(),
-            given: self.time_step,
-            limit: self.stability_limit,
-        }
-    }
-
-    fn blow_up(&self, source: ForceError) -> SolverError {
-        SolverError::BlowUp {
-            step: self.step,
-            time: self.time,
-            strain: self.strain(),
-            place: self.reference_place(self.mesh().first_node(source.element())),
-            source,
-        }
-    }
-
-    /// Where a node was before the loading: nm from the left edge, and from the crack plane.
-    fn reference_place(&self, node: usize) -> [f64; 2] {
-        let mesh = self.mesh();
-        let [x, y] = mesh.node_positions();
-        [x[node] - self.setting.left_x, y[node] - mesh.middle_height()]
     }
 }

@@ -22,7 +22,7 @@ impl Forces {
         broken
     }
 
-    /// Atoms, and triangles that border anything but intact interfaces.
+    /// Atoms that may have irregular bonds, and triangles that border anything but intact interfaces.
     fn elements_that_meet_others(&self) -> Vec<u32> {
         let mut meets = self.interfaces.exposed.clone();
         for (number, pair) in self.interfaces.pairs.iter().enumerate() {
@@ -36,7 +36,12 @@ impl Forces {
             .filter(|(_, meets)| **meets)
             .map(|(triangle, _)| triangle);
         triangles
-            .chain(self.mesh.triangles as u32..self.mesh.elements.len() as u32)
+            .chain(
+                self.atoms
+                    .searched()
+                    .iter()
+                    .map(|atom| self.mesh.triangles as u32 + atom),
+            )
             .collect()
     }
 

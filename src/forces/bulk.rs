@@ -1,9 +1,11 @@
 //! Bonds inside triangles: all bonds of one lattice vector are the same vector, so each costs one evaluation.
 
+use pulp::Simd;
+
 use super::affine::{Affine, smallest_stretch};
-use super::lanes::Lanes;
-use super::maps::{MapLanes, stretch_at_least};
+use super::maps::{MapLanes, squared};
 use super::summation::Summation;
+use crate::lanes::Lanes;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
 use crate::potential::{CutPotential, PairShape};
@@ -12,38 +14,38 @@ use crate::potential::{CutPotential, PairShape};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BulkBond {
     pub local: [i32; 2],
+    /// The same as numbers.
+    pub vector: [f64; 2],
     pub count: f64,
     /// Length in spacings.
     pub length: f64,
 }
 
-/// How far bonds reach in a lattice, nm.
-pub struct Reach {
-    pub cutoff: f64,
-    pub spacing: f64,
-}
-
 /// Forces of bonds inside triangles on their nodes, x and y of each.
 #[inline(always)]
-pub fn force<S: PairShape, const W: usize>(
+pub fn force<S: PairShape, L: Simd>(
+    simd: L,
     law: &CutPotential<S>,
     size: i32,
-    map: &MapLanes<W>,
+    map: &MapLanes<L>,
     bonds: &[BulkBond],
-) -> [Lanes<W>; 6] {
-    let [mut first, mut second] = [[Lanes::default(); 2]; 2];
+) -> [Lanes<L>; 6] {
+    let zero = Lanes::all(simd, 0.0);
+    let [mut first_x, mut first_y, mut second_x, mut second_y] = [zero; 4];
     for bond in bonds {
-        let [x, y] = map.vector(bond.local);
-        let pull = Lanes(law.slopes(x.mul_add(x, y * y).0)) * -bond.count;
-        let [p, q] = [pull * f64::from(bond.local[0]), pull * f64::from(bond.local[1])];
-        first = [p.mul_add(x, first[0]), p.mul_add(y, first[1])];
-        second = [q.mul_add(x, second[0]), q.mul_add(y, second[1])];
+        let [x, y] = map.vector(bond.vector);
+        let pull = law.slopes(simd, squared([x, y])) * -bond.count;
+        let [p, q] = [pull * bond.vector[0], pull * bond.vector[1]];
+        first_x = p.mul_add(x, first_x);
+        first_y = p.mul_add(y, first_y);
+        second_x = q.mul_add(x, second_x);
+        second_y = q.mul_add(y, second_y);
     }
     let edge = 1.0 / f64::from(size - 1);
-    let first = [first[0] * edge, first[1] * edge];
-    let second = [second[0] * edge, second[1] * edge];
-    let origin = [(first[0] + second[0]) * -1.0, (first[1] + second[1]) * -1.0];
-    [origin[0], origin[1], first[0], first[1], second[0], second[1]]
+    let [first_x, first_y] = [first_x * edge, first_y * edge];
+    let [second_x, second_y] = [second_x * edge, second_y * edge];
+    let [x, y] = [zero - first_x - second_x, zero - first_y - second_y];
+    [x, y, first_x, first_y, second_x, second_y]
 }
 
 /// For every triangle size in a mesh its lattice vectors by length; the first `listed` are always summed.
@@ -63,6 +65,7 @@ impl BulkBonds {
                 .into_iter()
                 .map(|local| BulkBond {
                     local,
+                    vector: local.map(f64::from),
                     count: summation.bulk_count(size, local),
                     length: f64::from(triangular::squared_length(local)).sqrt(),
                 })
@@ -95,19 +98,10 @@ impl BulkBonds {
         &bonds[..needed]
     }
 
-    /// The lattice vectors within the cutoff of triangles of one size side by side; `None` where some of them are so
-    /// strongly deformed that each has its own.
+    /// The lattice vectors within the cutoff of triangles whose lattice is regular.
     #[inline(always)]
-    pub fn within_all<const W: usize>(&self, size: i32, map: &MapLanes<W>, reach: &Reach) -> Option<&[BulkBond]> {
+    pub fn listed(&self, size: i32) -> &[BulkBond] {
         let (_, listed, bonds) = self.table(size);
-        let enough = match bonds.get(*listed) {
-            None => true,
-            Some(next) => {
-                // A little more than is needed, so that rounding does not matter.
-                let stretch = 1.0001 * reach.cutoff / (next.length * reach.spacing);
-                stretch_at_least(map.deformation_gradient(1, reach.spacing), stretch)
-            }
-        };
-        if enough { Some(&bonds[..*listed]) } else { None }
+        &bonds[..*listed]
     }
 }

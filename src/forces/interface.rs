@@ -1,13 +1,17 @@
 //! Bonds between two triangles that lie side by side as in the perfect lattice.
 
+use pulp::Simd;
+
 use super::Planes;
 use super::affine::{Affine, smallest_stretch};
-use super::lanes::Lanes;
-use super::maps::{MapLanes, stretch_at_least};
+use super::maps::{MapLanes, squared};
+use super::regular::Regular;
 use super::summation::{Sample, SampledString};
+use crate::lanes::{Lanes, Mask};
+use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
-use crate::mesh::interfaces::{BondString, InterfaceKind, Interfaces};
+use crate::mesh::interfaces::{BondString, Interfaces};
 use crate::potential::{CutPotential, PairShape};
 
 /// How two neighbouring triangles stand to each other.
@@ -30,53 +34,30 @@ pub struct IntactLimit {
     pub unlisted: f64,
     /// nm
     pub spacing: f64,
-    /// `None` where the cutoff leaves no room for it.
-    pub quick: Option<QuickTest>,
-}
-
-/// A test that few intact interfaces fail, and that takes no roots: whatever passes it is tight.
-#[derive(Clone, Copy)]
-pub struct QuickTest {
-    squared_gap: f64,
-    squared_difference: f64,
-}
-
-impl QuickTest {
-    /// Largest gap, in spacings, largest difference of the gradients, and smallest stretch.
-    const GAP: f64 = 0.03;
-    const DIFFERENCE: f64 = 0.02;
-    const STRETCH: f64 = 0.97;
-
-    /// `unlisted` in spacings, lengths in nm.
-    pub fn new(unlisted: f64, cutoff: f64, spacing: f64) -> Option<Self> {
-        let displaced = (Self::GAP + Self::DIFFERENCE) * spacing;
-        let stretch = Self::STRETCH - IntactLimit::LEVER * Self::DIFFERENCE;
-        let beyond = stretch * unlisted * spacing - cutoff;
-        // A little less than what the full test asks, so that rounding does not matter.
-        let is_tight = displaced <= 0.99 * (IntactLimit::LOOSE * spacing).min(0.5 * beyond);
-        is_tight.then_some(Self {
-            squared_gap: (Self::GAP * spacing).powi(2),
-            squared_difference: Self::DIFFERENCE.powi(2),
-        })
-    }
-
-    /// Whether all of some interfaces pass, by the gradients of their first and second triangles.
-    #[inline(always)]
-    pub fn holds<const W: usize>(&self, [first, second]: [[[Lanes<W>; 2]; 2]; 2], squared_gap: Lanes<W>) -> bool {
-        let mut squared_difference = Lanes::default();
-        for k in 0..2 {
-            for axis in 0..2 {
-                let difference = second[k][axis] - first[k][axis];
-                squared_difference = difference.mul_add(difference, squared_difference);
-            }
-        }
-        squared_gap.every(|gap| gap <= self.squared_gap)
-            && squared_difference.every(|difference| difference <= self.squared_difference)
-            && stretch_at_least(second, Self::STRETCH)
-    }
+    /// What few intact interfaces fail; `None` where the cutoff leaves no room for it.
+    pub regular: Option<Regular>,
 }
 
 impl IntactLimit {
+    /// `unlisted` in spacings.
+    pub fn new(material: &Material, unlisted: f64) -> Self {
+        let [cutoff, spacing] = [material.interaction.cutoff(), material.spacing];
+        Self {
+            cutoff,
+            unlisted,
+            spacing,
+            regular: Regular::new(unlisted, cutoff, spacing),
+        }
+    }
+
+    /// Whether the bonds inside some triangles are as in a regular lattice; `None` where that cannot be said.
+    #[inline(always)]
+    pub fn regular_inside<L: Simd>(&self, map: &MapLanes<L>) -> Option<Mask<L>> {
+        let test = self.regular.as_ref()?;
+        let [a, b, c] = map.nearest_bonds();
+        Some(test.holds(a, a).and(test.holds(b, b)).and(test.holds(c, c)))
+    }
+
     /// Triangles that face along an edge need 1, those that meet at a corner over a 60 degree wedge 1/sin 60.
     const LEVER: f64 = 1.5;
     /// In spacings. While all neighbours of a triangle are closer to their lattice places than this, nothing else
@@ -176,116 +157,118 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// Forces of strings on the nodes of both triangles, first and second: x and y of each node, eV/nm.
-#[derive(Clone, Copy)]
-pub struct StringForces<const W: usize>(pub [Lanes<W>; 12]);
+/// Sum of the bond forces of a string, x and y, and their first moment with the place along it.
+pub type StringSum<L> = [Lanes<L>; 4];
 
-impl<const W: usize> Default for StringForces<W> {
-    #[inline(always)]
-    fn default() -> Self {
-        Self([Lanes::default(); 12])
-    }
-}
-
-impl<const W: usize> StringForces<W> {
-    #[inline(always)]
-    pub fn set_lane(&mut self, lane: usize, alone: &StringForces<1>) {
-        (0..12).for_each(|plane| self.0[plane].0[lane] = alone.0[plane][0]);
-    }
-}
-
-/// The larger squared distance between the places where two triangles would put one and the same lattice site, at either
-/// end of where they face each other, nm^2.
+/// Sums all strings between some pairs of triangles; returns whether all nearest-neighbour bonds among them are as in a
+/// regular lattice.
 #[inline(always)]
-pub fn squared_gap<const W: usize>(kind: &InterfaceKind, first: &MapLanes<W>, second: &MapLanes<W>) -> Lanes<W> {
-    let [a, b] = [
-        squared_gap_at(kind, kind.anchors[0], first, second),
-        squared_gap_at(kind, kind.anchors[1], first, second),
-    ];
-    Lanes::each(|lane| if a[lane] > b[lane] { a[lane] } else { b[lane] })
-}
-
-#[inline(always)]
-fn squared_gap_at<const W: usize>(
-    kind: &InterfaceKind,
-    anchor: [i32; 2],
-    first: &MapLanes<W>,
-    second: &MapLanes<W>,
-) -> Lanes<W> {
-    let [one, other] = kind.elements;
-    let site = [one.column + anchor[0], one.row + anchor[1]];
-    let [a, b] = [first.at(one.local(site)), second.at(other.local(site))];
-    let [x, y] = [b[0] - a[0], b[1] - a[1]];
-    x.mul_add(x, y * y)
-}
-
-/// Forces of all strings on the nodes of both triangles: the weights along a string are linear too, so that the sums of
-/// the bond forces and of their first moments say it all.
-#[inline(always)]
-pub fn string_forces<S: PairShape, const W: usize>(
+pub fn sum_strings<S: PairShape, L: Simd>(
+    simd: L,
     law: &CutPotential<S>,
-    kind: &InterfaceKind,
-    first_map: &MapLanes<W>,
-    second_map: &MapLanes<W>,
+    limit: &IntactLimit,
+    [first, second]: &[MapLanes<L>; 2],
     strings: &[SampledString],
-) -> StringForces<W> {
-    let mut first = NodalSum::default();
-    let mut second = NodalSum::default();
-    for SampledString { string, samples } in strings {
-        let [a, b] = [first_map.at(string.first), second_map.at(string.second)];
-        let [da, db] = [
-            first_map.vector(string.first_step),
-            second_map.vector(string.second_step),
-        ];
-        let start = [b[0] - a[0], b[1] - a[1]];
-        let step = [db[0] - da[0], db[1] - da[1]];
-        let [mut sum, mut moment] = [[Lanes::default(); 2]; 2];
-        for &Sample { at, weight } in samples {
-            let [x, y] = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
-            let pull = Lanes(law.slopes(x.mul_add(x, y * y).0)) * weight;
-            let lever = pull * at;
-            sum = [pull.mul_add(x, sum[0]), pull.mul_add(y, sum[1])];
-            moment = [lever.mul_add(x, moment[0]), lever.mul_add(y, moment[1])];
+    mut store: impl FnMut(usize, StringSum<L>),
+) -> Mask<L> {
+    let mut regular = Mask::all(simd, limit.regular.is_some());
+    for (number, sampled) in strings.iter().enumerate() {
+        let [start, step] = bonds_along(sampled, [first, second]);
+        let length = sampled.length;
+        let squared_bend = squared(step) * (length * length);
+        if let (true, Some(test)) = (sampled.is_nearest, &limit.regular) {
+            let end = [step[0].times_add(length, start[0]), step[1].times_add(length, start[1])];
+            // The squared length along a string is a parabola that dips by a quarter of the squared bend at most.
+            let dip = squared_bend * 0.25;
+            let [one, other] = [squared(start), squared(end)];
+            regular = regular
+                .and(test.holds(one - dip, one))
+                .and(test.holds(other - dip, other));
         }
-        first.add(string.first, string.first_step, sum, moment, 1.0);
-        second.add(string.second, string.second_step, sum, moment, -1.0);
+        let sum = match sampled.hardly_bent(limit.spacing) {
+            None if sampled.every_bond => sum_bonds(simd, law, start, step, sampled.string.count),
+            None => sum_samples(simd, law, start, step, &sampled.samples),
+            Some(limit) => sum_sampled(simd, law, start, step, sampled, squared_bend.is_below(limit)),
+        };
+        store(number, sum);
     }
-    let [first, second] = [
-        first.on_nodes(kind.elements[0].size),
-        second.on_nodes(kind.elements[1].size),
-    ];
-    let mut forces = StringForces::default();
-    forces.0[..6].copy_from_slice(&first);
-    forces.0[6..].copy_from_slice(&second);
-    forces
+    regular
 }
 
-/// Force on a triangle and its moments with the two local coordinates.
-#[derive(Clone, Copy, Default)]
-struct NodalSum<const W: usize> {
-    total: [Lanes<W>; 2],
-    along: [[Lanes<W>; 2]; 2],
+/// The first bond vector of a string between some pairs of triangles, and its change from bond to bond.
+#[inline(always)]
+pub fn bonds_along<L: Simd>(sampled: &SampledString, [first, second]: [&MapLanes<L>; 2]) -> [[Lanes<L>; 2]; 2] {
+    let [one, other] = &sampled.ends;
+    let [a, b] = [first.at(one.start), second.at(other.start)];
+    let [da, db] = [first.vector(one.step), second.vector(other.step)];
+    [[b[0] - a[0], b[1] - a[1]], [db[0] - da[0], db[1] - da[1]]]
 }
 
-impl<const W: usize> NodalSum<W> {
-    #[inline(always)]
-    fn add(&mut self, start: [i32; 2], step: [i32; 2], sum: [Lanes<W>; 2], moment: [Lanes<W>; 2], sign: f64) {
-        for axis in 0..2 {
-            self.total[axis] = sum[axis].times_add(sign, self.total[axis]);
-            for k in 0..2 {
-                let from_start = sum[axis].times_add(sign * f64::from(start[k]), self.along[k][axis]);
-                self.along[k][axis] = moment[axis].times_add(sign * f64::from(step[k]), from_start);
-            }
-        }
+/// The sums of strings that are looked at in few places where they are hardly bent.
+#[inline(always)]
+fn sum_sampled<S: PairShape, L: Simd>(
+    simd: L,
+    law: &CutPotential<S>,
+    start: [Lanes<L>; 2],
+    step: [Lanes<L>; 2],
+    sampled: &SampledString,
+    hardly_bent: Mask<L>,
+) -> StringSum<L> {
+    let [a, b, c, d] = sum_samples(simd, law, start, step, &sampled.few);
+    if hardly_bent.every() {
+        return [a, b, c, d];
     }
+    let [e, f, g, h] = sum_bonds(simd, law, start, step, sampled.string.count);
+    let pick = |few: Lanes<L>, all: Lanes<L>| few.where_or(hardly_bent, all);
+    [pick(a, e), pick(b, f), pick(c, g), pick(d, h)]
+}
 
-    /// x and y of each node.
-    #[inline(always)]
-    fn on_nodes(&self, size: i32) -> [Lanes<W>; 6] {
-        let edge = 1.0 / f64::from(size - 1);
-        let [p, q] = self.along;
-        let [p, q] = [[p[0] * edge, p[1] * edge], [q[0] * edge, q[1] * edge]];
-        let [x, y] = [self.total[0] - p[0] - q[0], self.total[1] - p[1] - q[1]];
-        [x, y, p[0], p[1], q[0], q[1]]
+#[inline(always)]
+fn sum_samples<S: PairShape, L: Simd>(
+    simd: L,
+    law: &CutPotential<S>,
+    start: [Lanes<L>; 2],
+    step: [Lanes<L>; 2],
+    samples: &[Sample],
+) -> StringSum<L> {
+    let zero = Lanes::all(simd, 0.0);
+    let [mut sum_x, mut sum_y, mut moment_x, mut moment_y] = [zero; 4];
+    for &Sample { at, weight } in samples {
+        let [x, y] = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
+        let pull = law.slopes(simd, squared([x, y])) * weight;
+        let lever = pull * at;
+        sum_x = sum_x + pull * x;
+        sum_y = sum_y + pull * y;
+        moment_x = lever.mul_add(x, moment_x);
+        moment_y = lever.mul_add(y, moment_y);
     }
+    [sum_x, sum_y, moment_x, moment_y]
+}
+
+/// The sums over all bonds, each counted once. From the last to the first the moment is the sum of the sums so far, which
+/// takes additions instead of products.
+#[inline(always)]
+fn sum_bonds<S: PairShape, L: Simd>(
+    simd: L,
+    law: &CutPotential<S>,
+    start: [Lanes<L>; 2],
+    step: [Lanes<L>; 2],
+    count: i32,
+) -> StringSum<L> {
+    let zero = Lanes::all(simd, 0.0);
+    let [mut sum_x, mut sum_y, mut moment_x, mut moment_y] = [zero; 4];
+    let last = f64::from(count - 1);
+    let [mut x, mut y] = [step[0].times_add(last, start[0]), step[1].times_add(last, start[1])];
+    for _ in 1..count {
+        let pull = law.slopes(simd, squared([x, y]));
+        sum_x = sum_x + pull * x;
+        sum_y = sum_y + pull * y;
+        moment_x = moment_x + sum_x;
+        moment_y = moment_y + sum_y;
+        x = x - step[0];
+        y = y - step[1];
+    }
+    let [x, y] = start;
+    let pull = law.slopes(simd, squared([x, y]));
+    [sum_x + pull * x, sum_y + pull * y, moment_x, moment_y]
 }

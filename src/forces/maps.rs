@@ -1,13 +1,14 @@
 //! The affine maps of all triangles, laid out so that consecutive triangles can be computed side by side.
 
+use pulp::Simd;
 use rayon::prelude::*;
 
-use super::affine::INVERSE_ROOT_3;
-use super::lanes::Lanes;
 use super::{CHUNK, Planes};
+use crate::lanes::{Lanes, MOST};
 use crate::mesh::Mesh;
 
-/// x(p, q) = origin + p along[0] + q along[1] of every triangle, a plane each, nm. [Deng2011] Eq. (3-27)
+/// x(p, q) = origin + p along[0] + q along[1] of every triangle, a plane each with room for lanes beyond
+/// the last, nm. [Deng2011] Eq. (3-27)
 #[derive(Default)]
 pub struct Maps {
     /// origin x, y, along[0] x, y, along[1] x, y of `CHUNK` triangles after those of the chunk before.
@@ -18,9 +19,9 @@ pub struct Maps {
 
 /// The maps of some consecutive triangles.
 #[derive(Clone, Copy)]
-pub struct MapLanes<const W: usize> {
-    pub origin: [Lanes<W>; 2],
-    pub along: [[Lanes<W>; 2]; 2],
+pub struct MapLanes<L: Simd> {
+    pub origin: [Lanes<L>; 2],
+    pub along: [[Lanes<L>; 2]; 2],
 }
 
 impl Maps {
@@ -30,7 +31,7 @@ impl Maps {
             .map(|element| 1.0 / f64::from(element.size - 1))
             .collect();
         Self {
-            planes: std::array::from_fn(|_| vec![0.0; edge.len()]),
+            planes: std::array::from_fn(|_| vec![0.0; edge.len() + MOST]),
             edge,
         }
     }
@@ -56,34 +57,22 @@ impl Maps {
         }
     }
 
+    /// The maps of consecutive triangles from one on; beyond the last one they mean nothing.
     #[inline(always)]
-    pub fn lanes<const W: usize>(&self, from: usize) -> MapLanes<W> {
+    pub fn lanes<L: Simd>(&self, simd: L, from: usize) -> MapLanes<L> {
         let [x, y, a, b, c, d] = &self.planes;
+        let load = |plane: &[f64]| Lanes::load(simd, plane, from);
         MapLanes {
-            origin: [Lanes::load(x, from), Lanes::load(y, from)],
-            along: [
-                [Lanes::load(a, from), Lanes::load(b, from)],
-                [Lanes::load(c, from), Lanes::load(d, from)],
-            ],
+            origin: [load(x), load(y)],
+            along: [[load(a), load(b)], [load(c), load(d)]],
         }
     }
 }
 
-impl<const W: usize> MapLanes<W> {
-    /// One of the triangles alone.
-    #[inline(always)]
-    pub fn lane(&self, lane: usize) -> MapLanes<1> {
-        let one = |value: Lanes<W>| Lanes([value[lane]]);
-        MapLanes {
-            origin: self.origin.map(one),
-            along: self.along.map(|vector| vector.map(one)),
-        }
-    }
-
+impl<L: Simd> MapLanes<L> {
     /// Positions of the sites at these local coordinates.
     #[inline(always)]
-    pub fn at(&self, local: [i32; 2]) -> [Lanes<W>; 2] {
-        let [p, q] = [f64::from(local[0]), f64::from(local[1])];
+    pub fn at(&self, [p, q]: [f64; 2]) -> [Lanes<L>; 2] {
         let [a, b] = self.along;
         let x = b[0].times_add(q, a[0].times_add(p, self.origin[0]));
         let y = b[1].times_add(q, a[1].times_add(p, self.origin[1]));
@@ -92,30 +81,21 @@ impl<const W: usize> MapLanes<W> {
 
     /// The vectors that p steps along one edge and q along the other make.
     #[inline(always)]
-    pub fn vector(&self, local: [i32; 2]) -> [Lanes<W>; 2] {
-        let [p, q] = [f64::from(local[0]), f64::from(local[1])];
+    pub fn vector(&self, [p, q]: [f64; 2]) -> [Lanes<L>; 2] {
         let [a, b] = self.along;
         [b[0].times_add(q, a[0] * p), b[1].times_add(q, a[1] * p)]
     }
 
-    /// Deformation gradients with respect to the perfect lattice of this spacing; `sign` is the triangles' orientation.
-    /// Columns are the images of the unit vectors along x and y.
+    /// Squared lengths of the nearest-neighbour bonds, nm^2.
     #[inline(always)]
-    pub fn deformation_gradient(&self, sign: i32, spacing: f64) -> [[Lanes<W>; 2]; 2] {
-        let scale = f64::from(sign) / spacing;
+    pub fn nearest_bonds(&self) -> [Lanes<L>; 3] {
         let [a, b] = self.along;
-        let across = scale * INVERSE_ROOT_3;
-        let second = [(b[0] * 2.0 - a[0]) * across, (b[1] * 2.0 - a[1]) * across];
-        [[a[0] * scale, a[1] * scale], second]
+        let c = [b[0] - a[0], b[1] - a[1]];
+        [squared(a), squared(b), squared(c)]
     }
 }
 
-/// Whether deformation gradients (columns) stretch every vector by this factor at least: F^T F - s^2 is then positive.
 #[inline(always)]
-pub fn stretch_at_least<const W: usize>([x, y]: [[Lanes<W>; 2]; 2], factor: f64) -> bool {
-    let least = Lanes::all(factor * factor);
-    let xx = x[0] * x[0] + x[1] * x[1] - least;
-    let yy = y[0] * y[0] + y[1] * y[1] - least;
-    let xy = x[0] * y[0] + x[1] * y[1];
-    xx.every(|value| value > 0.0) && (xx * yy - xy * xy).every(|value| value > 0.0)
+pub fn squared<L: Simd>([x, y]: [Lanes<L>; 2]) -> Lanes<L> {
+    x.mul_add(x, y * y)
 }

@@ -6,7 +6,7 @@ mod strings;
 use rayon::prelude::*;
 
 use super::affine::Affine;
-use super::summation::{Sample, SampledString};
+use super::summation::Sample;
 use super::{CHUNK, ForceError, Forces, Planes, interface};
 use crate::potential::{CutPotential, PairShape, PairValue, with_law};
 
@@ -88,7 +88,7 @@ impl Forces {
                 self.for_each_string_bond(element, number as usize, position, &mut call);
             }
         }
-        for site in self.contacts.sites_of(element) {
+        for site in self.contacts.sites_of(&self.mesh, element) {
             let local = self.contacts.local(site).map(f64::from);
             self.contacts.for_each_partner(site, |vector, severed, count| {
                 call(Bond {
@@ -104,11 +104,15 @@ impl Forces {
         let pair = interface::Pair::new(&self.mesh, &self.interfaces, number, position);
         let is_first = self.interfaces.pairs[number].first as usize == element;
         let kind = self.interfaces.pairs[number].kind;
-        for SampledString { string, samples } in self.strings.of(
-            kind,
-            pair.gap().powi(2) <= self.strings.hardly_open(self.material.spacing),
-        ) {
+        for sampled in &self.strings.of(kind).strings {
+            let string = &sampled.string;
             let [start, step] = pair.string_vectors(string);
+            let squared_bend = (step[0] * step[0] + step[1] * step[1]) * (sampled.length * sampled.length);
+            let few = sampled.hardly_bent(self.material.spacing);
+            let samples = match few.is_some_and(|limit| squared_bend < limit) {
+                true => &sampled.few,
+                false => &sampled.samples,
+            };
             let (site, site_step) = if is_first {
                 (string.first, string.first_step)
             } else {

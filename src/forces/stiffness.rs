@@ -1,6 +1,7 @@
 //! An upper bound of the highest frequency, for a time step that is stable for certain.
 
 mod alike;
+mod atoms;
 
 use std::ops::Range;
 
@@ -49,8 +50,10 @@ impl Forces {
             let is_alike = state.coupling.is_empty() && self.are_alike(at, elements.end);
             let of_alike = is_alike.then(|| alike::largest(self, law, at, mass, largest)).flatten();
             if at >= self.mesh.triangles {
-                largest = largest.max(self.atom_stiffness(law, at) / mass);
-                at += 1;
+                let atoms = self.arch.dispatch(atoms::Bounds::new(self, law, at..elements.end));
+                return atoms
+                    .into_iter()
+                    .fold(largest, |largest, bound| largest.max(bound / mass));
             } else if let Some(found) = of_alike {
                 largest = found;
                 at += alike::WIDTH;
@@ -71,15 +74,17 @@ impl Forces {
     pub fn stiffness_bounds(&mut self, position: &Planes) -> Result<Vec<f64>, ForceError> {
         self.refresh(position)?;
         self.contacts.place_sites(&self.mesh, position);
-        let of_element = |element: usize| {
-            with_law!(self.material.interaction, law => if element < self.mesh.triangles {
-                largest_eigenvalue(&self.triangle_stiffness(&law, element, position), 1.0, 0.0)
-            } else {
-                self.atom_stiffness(&law, element)
-            })
-        };
-        let elements = (0..self.mesh.elements.len()).into_par_iter();
-        Ok(elements.with_min_len(CHUNK).map(of_element).collect())
+        let [triangles, elements] = [self.mesh.triangles, self.mesh.elements.len()];
+        with_law!(self.material.interaction, law => {
+            let of_triangle =
+                |triangle: usize| largest_eigenvalue(&self.triangle_stiffness(&law, triangle, position), 1.0, 0.0);
+            let of_triangles = (0..triangles).into_par_iter().with_min_len(CHUNK).map(of_triangle);
+            let mut bounds: Vec<f64> = of_triangles.collect();
+            if triangles < elements {
+                bounds.extend(self.arch.dispatch(atoms::Bounds::new(self, &law, triangles..elements)));
+            }
+            Ok(bounds)
+        })
     }
 
     /// Bound of a triangle's stiffness, rows by node and component.
@@ -116,24 +121,6 @@ impl Forces {
             }
         });
         stiffness
-    }
-
-    /// Bound of an atom's stiffness, eV/nm^2.
-    fn atom_stiffness<S: PairShape>(&self, law: &CutPotential<S>, element: usize) -> f64 {
-        let [mut xx, mut yy, mut xy] = [0.0; 3];
-        for site in self.contacts.sites_of(element) {
-            self.contacts.for_each_partner(site, |vector, severed, count| {
-                let kind = BondKind::Across {
-                    local: [0.0; 2],
-                    severed,
-                };
-                let bond = Bond { vector, count, kind };
-                let stiffnesses = self.bond_stiffness(law, &bond, severed).map(against_a_wall);
-                let added = hessian(vector, stiffnesses);
-                [xx, yy, xy] = [xx + added[0], yy + added[1], xy + added[2]];
-            });
-        }
-        0.5 * (xx + yy) + (0.5 * (xx - yy)).hypot(xy)
     }
 
     /// Stiffness of a bond along its direction and across it: phi'' and phi'/r.

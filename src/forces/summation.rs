@@ -1,9 +1,12 @@
 //! Which bonds are looked at, and how many each stands for.
 
 use nalgebra::DMatrix;
+use pulp::Simd;
 
+use crate::lanes::Lanes;
+use crate::lattice::triangular;
 use crate::mesh::element::Element;
-use crate::mesh::interfaces::{BondString, Interfaces};
+use crate::mesh::interfaces::{BondString, InterfaceKind, Interfaces};
 
 /// A rule by which the sum over all bonds is taken. Each is one energy, and its forces are the gradient of that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -53,10 +56,10 @@ impl Summation {
         bonds.sum()
     }
 
-    /// Gap of two triangles, in spacings, up to which their strings are looked at in few places: beyond, the energy along a
-    /// string that bends open is no longer close to a polynomial. At this gap the sum is off by some 1e-4 of a bond's
-    /// energy, and that is by how much the energy jumps there. `None`: strings are always looked at alike.
-    fn sampled_up_to(self) -> Option<f64> {
+    /// How much the bonds of a string may change along it, in spacings, for it to be looked at in few places: beyond, the
+    /// energy along it is no longer close to a polynomial. There the sum is off by some 1e-4 of a bond's energy, and that
+    /// is by how much the energy jumps. `None`: strings are always looked at alike.
+    fn hardly_bent(self) -> Option<f64> {
         match self {
             Self::Exact | Self::Nodal => None,
             Self::Gauss { points: 1 } => Some(0.005),
@@ -77,61 +80,150 @@ pub struct Sample {
 pub struct SampledString {
     pub string: BondString,
     pub samples: Vec<Sample>,
+    /// Whether these are all its bonds, each counted once.
+    pub every_bond: bool,
+    /// Where it is looked at while it is hardly bent.
+    pub few: Vec<Sample>,
+    /// Change of its bonds along it, in spacings, up to which it counts as such; none without `few`.
+    bend: Option<f64>,
+    /// Whether its bonds are those of nearest neighbours.
+    pub is_nearest: bool,
+    /// Local coordinates of its first bond's ends in the first and in the second triangle, and their steps.
+    pub ends: [StringEnd; 2],
+    /// From its first bond to its last.
+    pub length: f64,
+}
+
+/// Where the ends of a string's bonds lie in a triangle, in local coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StringEnd {
+    pub start: [f64; 2],
+    pub step: [f64; 2],
+}
+
+impl SampledString {
+    fn new(summation: Summation, elements: &[Element; 2], string: BondString) -> Self {
+        let rule = samples(summation, elements, &string);
+        let every_bond = samples(Summation::Exact, elements, &string);
+        // Where the few places are those of all bonds, nothing is gained.
+        let bend = summation.hardly_bent().filter(|_| rule != every_bond);
+        let samples = if summation == Summation::Nodal {
+            &rule
+        } else {
+            &every_bond
+        };
+        Self {
+            string,
+            every_bond: *samples == every_bond,
+            samples: samples.clone(),
+            few: bend.map_or_else(Vec::new, |_| rule),
+            bend,
+            is_nearest: triangular::squared_length(string.bond) == 1,
+            ends: [(string.first, string.first_step), (string.second, string.second_step)].map(|(start, step)| {
+                StringEnd {
+                    start: start.map(f64::from),
+                    step: step.map(f64::from),
+                }
+            }),
+            length: f64::from(string.count - 1),
+        }
+    }
+
+    /// Squared change of its bonds along a string of this kind, nm^2, up to which it is looked at in few places.
+    #[inline(always)]
+    pub fn hardly_bent(&self, spacing: f64) -> Option<f64> {
+        self.bend.map(|bend| (bend * spacing) * (bend * spacing))
+    }
+
+    /// Where some strings of this kind are looked at, by their squared bends, nm^2: places, and 1 for those strings that are
+    /// looked at there, 0 for the others.
+    #[inline(always)]
+    pub fn looks<L: Simd>(&self, simd: L, spacing: f64, squared_bend: Lanes<L>) -> [(&[Sample], Lanes<L>); 2] {
+        let [none, all] = [Lanes::all(simd, 0.0), Lanes::all(simd, 1.0)];
+        let few = match self.hardly_bent(spacing) {
+            None => none,
+            Some(limit) => all.where_or(squared_bend.is_below(limit), none),
+        };
+        [(&self.few, few), (&self.samples, all - few)]
+    }
+}
+
+/// The strings of one kind of interface, and how they act on the nodes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct KindStrings {
+    pub strings: Vec<SampledString>,
+    /// Nodes of the first and of the second triangle on which the strings act.
+    pub shares: [Vec<NodeShare>; 2],
+}
+
+/// What a node gets of each string: this times the sum of its forces, and this times their moment. The sites of a string
+/// lie on a straight line, along which shape functions are linear.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NodeShare {
+    pub node: usize,
+    pub of_string: Vec<[f64; 2]>,
+}
+
+impl KindStrings {
+    fn new(summation: Summation, kind: &InterfaceKind) -> Self {
+        let strings = kind.strings.iter();
+        // What is looked at nowhere still shows whether the lattice is regular.
+        let strings: Vec<SampledString> = strings
+            .map(|&string| SampledString::new(summation, &kind.elements, string))
+            .filter(|string| string.is_nearest || !string.samples.is_empty())
+            .collect();
+        let shares = [0, 1].map(|side| {
+            let of_node = |node: usize| NodeShare {
+                node,
+                of_string: strings
+                    .iter()
+                    .map(|sampled| share(&kind.elements, &sampled.string, side, node))
+                    .collect(),
+            };
+            let acts = |share: &NodeShare| share.of_string.iter().flatten().any(|&weight| weight != 0.0);
+            (0..3).map(of_node).filter(acts).collect()
+        });
+        Self { strings, shares }
+    }
+}
+
+/// Of the sum and of the moment of a string what a node of the first or of the second triangle gets.
+fn share(elements: &[Element; 2], string: &BondString, side: usize, node: usize) -> [f64; 2] {
+    let (start, step, sign) = match side {
+        0 => (string.first, string.first_step, 1.0),
+        _ => (string.second, string.second_step, -1.0),
+    };
+    let weight_at = |t: i32| elements[side].shape_functions([start[0] + t * step[0], start[1] + t * step[1]])[node];
+    let change = if string.count > 1 {
+        weight_at(1) - weight_at(0)
+    } else {
+        0.0
+    };
+    [sign * weight_at(0), sign * change]
 }
 
 /// The strings of every kind of interface under a rule.
 pub struct SampledStrings {
-    fine: Vec<Vec<SampledString>>,
-    /// Those of interfaces that have hardly opened, and up to which gap, in spacings; `None`: always as `fine`.
-    coarse: Option<(f64, Vec<Vec<SampledString>>)>,
+    of_kind: Vec<KindStrings>,
 }
 
 impl SampledStrings {
     pub fn new(interfaces: &Interfaces, summation: Summation) -> Self {
-        let kinds = |summation: Summation| -> Vec<Vec<SampledString>> {
-            let all = interfaces.kinds.iter().map(|kind| {
-                let strings = kind.strings.iter().map(|&string| SampledString {
-                    string,
-                    samples: samples(summation, &kind.elements, &string),
-                });
-                strings.filter(|string| !string.samples.is_empty()).collect()
-            });
-            all.collect()
-        };
-        match summation.sampled_up_to() {
-            Some(gap) => Self {
-                fine: kinds(Summation::Exact),
-                coarse: Some((gap, kinds(summation))),
-            },
-            None => Self {
-                fine: kinds(summation),
-                coarse: None,
-            },
-        }
-    }
-
-    /// Squared gap of two triangles, nm^2, up to which they count as hardly open.
-    #[inline(always)]
-    pub fn hardly_open(&self, spacing: f64) -> f64 {
-        match self.coarse {
-            Some((gap, _)) => (gap * spacing) * (gap * spacing),
-            None => f64::INFINITY,
+        let of_kind = interfaces.kinds.iter().map(|kind| KindStrings::new(summation, kind));
+        Self {
+            of_kind: of_kind.collect(),
         }
     }
 
     /// The strings of a kind of interface.
     #[inline(always)]
-    pub fn of(&self, kind: u32, hardly_open: bool) -> &[SampledString] {
-        match &self.coarse {
-            Some((_, coarse)) if hardly_open => &coarse[kind as usize],
-            _ => &self.fine[kind as usize],
-        }
+    pub fn of(&self, kind: u32) -> &KindStrings {
+        &self.of_kind[kind as usize]
     }
 
     /// Whether a kind of interface has strings at all.
-    #[inline(always)]
     pub fn are_there(&self, kind: u32) -> bool {
-        !self.fine[kind as usize].is_empty()
+        !self.of_kind[kind as usize].strings.is_empty()
     }
 }
 
@@ -212,7 +304,6 @@ fn gauss_rule(count: usize, points: usize) -> Vec<Sample> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::lattice::triangular;
 
     /// Eigenvalues of a matrix of a few rows are good to some rounding errors.
     const ROUNDING: f64 = 1e-12;

@@ -1,6 +1,9 @@
 //! What becomes of a pair potential at its cutoff, and of the faces of a crack that was cut on purpose.
 
+use pulp::Simd;
+
 use super::PairShape;
+use crate::lanes::Lanes;
 
 /// The treatment of the cutoff.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,51 +86,45 @@ impl<S: PairShape> CutPotential<S> {
         self.evaluate(squared_distance).slope
     }
 
-    /// phi'/r of several pairs at once, each as [`Self::slope`] has it; `SIDE` by side without branches where no pair is
-    /// in the range of the switch.
+    /// phi'/r of several pairs at once; zero from the cutoff on.
     #[inline(always)]
-    pub fn slopes<const SIDE: usize>(&self, squared_distances: [f64; SIDE]) -> [f64; SIDE] {
-        let mut switched = false;
-        for squared in squared_distances {
-            switched |= squared > self.squared_switch;
-        }
-        let mut slopes = [0.0; SIDE];
-        for (slope, squared) in slopes.iter_mut().zip(squared_distances) {
-            *slope = if switched {
-                self.slope(squared)
-            } else if squared >= self.squared_cutoff {
-                0.0
-            } else {
-                self.shape.energy_and_slope(squared).1
-            };
-        }
+    pub fn slopes<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> Lanes<L> {
+        let [_, slopes] = self.values(simd, squared_distances);
         slopes
     }
 
-    /// Energy and phi'/r of several pairs at once, each as [`Self::evaluate`] has them; as fast as [`Self::slopes`].
+    /// Energies and phi'/r of several pairs at once; zero from the cutoff on.
     #[inline(always)]
-    pub fn values<const SIDE: usize>(&self, squared_distances: [f64; SIDE]) -> [[f64; SIDE]; 2] {
-        let mut switched = false;
-        for squared in squared_distances {
-            switched |= squared > self.squared_switch;
-        }
-        let [mut energies, mut slopes] = [[0.0; SIDE]; 2];
-        if switched {
-            for side in 0..SIDE {
-                let PairValue { energy, slope } = self.evaluate(squared_distances[side]);
-                energies[side] = energy;
-                slopes[side] = slope;
-            }
-        } else {
-            for side in 0..SIDE {
-                let squared = squared_distances[side];
-                let (energy, slope) = self.shape.energy_and_slope(squared);
-                let is_within = squared < self.squared_cutoff;
-                energies[side] = if is_within { energy - self.shift } else { 0.0 };
-                slopes[side] = if is_within { slope } else { 0.0 };
+    pub fn values<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> [Lanes<L>; 2] {
+        let [energies, mut slopes] = self.shape.energies_and_slopes(simd, squared_distances);
+        let mut shifted = energies - Lanes::all(simd, self.shift);
+        if let AtCutoff::Smooth { from } = self.at_cutoff {
+            let is_switched = squared_distances.is_above(self.squared_switch);
+            if is_switched.any() {
+                let distances = squared_distances.square_root();
+                let [factor, first, _] = self.switches(simd, from, distances);
+                let switched = slopes.mul_add(factor, energies * first * distances.inverse());
+                slopes = switched.where_or(is_switched, slopes);
+                shifted = (energies * factor).where_or(is_switched, shifted);
             }
         }
-        [energies, slopes]
+        let is_within = squared_distances.is_below(self.squared_cutoff);
+        let zero = Lanes::all(simd, 0.0);
+        [shifted.where_or(is_within, zero), slopes.where_or(is_within, zero)]
+    }
+
+    /// The switching factor and its first two derivatives of several pairs within the range of the switch.
+    #[inline(always)]
+    fn switches<L: Simd>(&self, simd: L, from: f64, distances: Lanes<L>) -> [Lanes<L>; 3] {
+        let one = Lanes::all(simd, 1.0);
+        let inverse_width = 1.0 / (self.cutoff - from);
+        let s = (distances - Lanes::all(simd, from)) * inverse_width;
+        let rest = one - s;
+        let polynomial = s.mul_add(s.times_add(6.0, Lanes::all(simd, 3.0)), one);
+        let factor = rest * rest * rest * polynomial;
+        let first = (s * rest) * (s * rest) * (-30.0 * inverse_width);
+        let second = (s * rest) * (rest - s) * (-60.0 * inverse_width * inverse_width);
+        [factor, first, second]
     }
 
     #[cold]
@@ -167,26 +164,22 @@ impl<S: PairShape> CutPotential<S> {
         self.shape.curvature(distance) * factor + 2.0 * slope * distance * first + energy * second
     }
 
-    /// phi'' of several pairs at once, each as [`Self::curvature`] has it.
+    /// phi'' of several pairs at once; zero from the cutoff on.
     #[inline(always)]
-    pub fn curvatures<const SIDE: usize>(&self, squared_distances: [f64; SIDE]) -> [f64; SIDE] {
-        let mut switched = false;
-        for squared in squared_distances {
-            switched |= squared > self.squared_switch;
-        }
-        let mut curvatures = [0.0; SIDE];
-        if switched {
-            for side in 0..SIDE {
-                curvatures[side] = self.curvature(squared_distances[side].sqrt());
-            }
-        } else {
-            for side in 0..SIDE {
-                let distance = squared_distances[side].sqrt();
-                let uncut = self.shape.curvature(distance);
-                curvatures[side] = if distance >= self.cutoff { 0.0 } else { uncut };
+    pub fn curvatures<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> Lanes<L> {
+        let mut curvatures = self.shape.curvatures(simd, squared_distances);
+        if let AtCutoff::Smooth { from } = self.at_cutoff {
+            let is_switched = squared_distances.is_above(self.squared_switch);
+            if is_switched.any() {
+                let distances = squared_distances.square_root();
+                let [factor, first, second] = self.switches(simd, from, distances);
+                let [energies, slopes] = self.shape.energies_and_slopes(simd, squared_distances);
+                let of_slopes = slopes * distances * first * 2.0;
+                let switched = curvatures.mul_add(factor, energies.mul_add(second, of_slopes));
+                curvatures = switched.where_or(is_switched, curvatures);
             }
         }
-        curvatures
+        curvatures.where_or(squared_distances.is_below(self.squared_cutoff), Lanes::all(simd, 0.0))
     }
 
     /// Repulsion between the faces of a cut: the potential up to its minimum, zero beyond, stretched so that the
@@ -236,6 +229,8 @@ mod tests {
 
     /// Central differences with a step of 1e-5 leave step^2/6 of the third derivative, which reaches 1e4 in the switch.
     const DIFFERENCE_ERROR: f64 = 1e-6;
+    /// A few roundings, of which differences of nearly equal terms keep more.
+    const ORDER_OF_OPERATIONS: f64 = 1e-13;
     const LJ: LennardJones = LennardJones {
         epsilon: 1.0,
         sigma: 1.0,
@@ -286,20 +281,61 @@ mod tests {
         );
     }
 
+    /// Compares what pairs at some distances are worth at once with what each is alone.
+    struct AtOnce<S> {
+        law: CutPotential<S>,
+        distances: [f64; 8],
+    }
+
+    impl<S: PairShape> pulp::WithSimd for AtOnce<S> {
+        type Output = ();
+
+        fn with_simd<L: Simd>(self, simd: L) {
+            let Self { law, distances } = self;
+            let squared = distances.map(|distance| distance * distance);
+            for from in (0..squared.len()).step_by(Lanes::<L>::COUNT) {
+                let several = Lanes::load(simd, &squared, from);
+                let [energies, slopes] = law.values(simd, several).map(Lanes::numbers);
+                let curvatures = law.curvatures(simd, several).numbers();
+                assert_eq!(slopes, law.slopes(simd, several).numbers());
+                for lane in 0..Lanes::<L>::COUNT {
+                    let alone = law.evaluate(squared[from + lane]);
+                    let curvature = law.curvature(distances[from + lane]);
+                    let expected = [alone.energy, alone.slope, curvature];
+                    for (found, expected) in [energies[lane], slopes[lane], curvatures[lane]]
+                        .into_iter()
+                        .zip(expected)
+                    {
+                        let error = (found - expected).abs();
+                        assert!(
+                            error <= ORDER_OF_OPERATIONS * expected.abs(),
+                            "{law:?}: {found} for {expected}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
     #[test]
     fn several_pairs_at_once_are_worth_what_each_is_alone() {
+        // Before the switch, within it and beyond the cutoff, apart and together.
+        let all = [
+            [0.9, 1.0, 1.2, 1.4, 1.0, 1.2, 0.95, 1.3],
+            [1.0, 1.6, 1.75, 1.0, 1.4, 1.9, 2.5, 1.7],
+        ];
+        let morse = Morse {
+            depth: 1.0,
+            decay: 5.0,
+            distance: 1.1,
+        };
         for at_cutoff in [AtCutoff::Truncated, AtCutoff::Shifted, AtCutoff::Smooth { from: 1.5 }] {
-            let law = CutPotential::new(LJ, 1.9, at_cutoff);
-            // Before the switch, within it and beyond the cutoff, apart and together.
-            for distances in [[0.9, 1.0, 1.2, 1.4], [1.0, 1.6, 1.8, 1.0], [1.4, 1.9, 2.5, 1.7]] {
-                let squared = distances.map(|distance: f64| distance * distance);
-                let [energies, slopes] = law.values(squared);
-                let curvatures = law.curvatures(squared);
-                for side in 0..4 {
-                    let alone = law.evaluate(squared[side]);
-                    assert_eq!([energies[side], slopes[side]], [alone.energy, alone.slope]);
-                    assert_eq!(slopes[side], law.slopes(squared)[side]);
-                    assert_eq!(curvatures[side], law.curvature(squared[side].sqrt()));
+            for distances in all {
+                for arch in [pulp::Arch::new(), pulp::Arch::Scalar] {
+                    let law = CutPotential::new(LJ, 1.9, at_cutoff);
+                    arch.dispatch(AtOnce { law, distances });
+                    let law = CutPotential::new(morse, 1.9, at_cutoff);
+                    arch.dispatch(AtOnce { law, distances });
                 }
             }
         }

@@ -1,4 +1,7 @@
+use pulp::Simd;
+
 use super::PairShape;
+use crate::lanes::Lanes;
 
 /// phi(r) = 4 epsilon ((sigma/r)^12 - (sigma/r)^6), the source's material in chapters 4 to 6.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,6 +22,25 @@ impl PairShape for LennardJones {
     }
 
     #[inline(always)]
+    fn energies_and_slopes<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> [Lanes<L>; 2] {
+        let sixth = self.sigma.powi(6);
+        let [attraction, repulsion] = [4.0 * self.epsilon * sixth, 4.0 * self.epsilon * sixth * sixth];
+        let inverse = squared_distances.inverse();
+        let cubed = inverse * inverse * inverse;
+        let energies = cubed.times_add(repulsion, Lanes::all(simd, -attraction)) * cubed;
+        let slopes = cubed.times_add(-12.0 * repulsion, Lanes::all(simd, 6.0 * attraction)) * (inverse * cubed);
+        [energies, slopes]
+    }
+
+    #[inline(always)]
+    fn curvatures<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> Lanes<L> {
+        let sixth = self.sigma.powi(6);
+        let [attraction, repulsion] = [4.0 * self.epsilon * sixth, 4.0 * self.epsilon * sixth * sixth];
+        let inverse = squared_distances.inverse();
+        let cubed = inverse * inverse * inverse;
+        cubed.times_add(156.0 * repulsion, Lanes::all(simd, -42.0 * attraction)) * (inverse * cubed)
+    }
+
     fn curvature(&self, distance: f64) -> f64 {
         let inverse = 1.0 / (distance * distance);
         let ratio = self.sigma * self.sigma * inverse;

@@ -16,6 +16,7 @@ impl Solver {
         if !probe && !snapshot {
             return Ok(());
         }
+        self.settle();
         let mut clock = Instant::now();
         let measure = self.forces.measure_computed(&self.state.position);
         if probe {

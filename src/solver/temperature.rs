@@ -12,13 +12,16 @@ const CELL: i32 = 8;
 /// Kinetic temperature of the atoms that are not in the grips, K: the motion relative to the local velocity field,
 /// [Deng2011] Eq. (3-22) with two directions instead of three. NaN where there are no atoms.
 pub fn kinetic_temperature(mesh: &Mesh, state: &State) -> f64 {
+    #[derive(Default)]
     struct Cell {
         atoms: f64,
         mean: [f64; 2],
         squared: f64,
     }
-    let mut cells: HashMap<[i32; 2], Cell> = HashMap::new();
-    let mut order = Vec::new();
+    let mut cells: Vec<Cell> = Vec::new();
+    let mut number_of: HashMap<[i32; 2], usize> = HashMap::new();
+    // Atoms that follow each other mostly share a cell.
+    let mut last = ([i32::MAX; 2], 0);
     let mut mass = 0.0;
     for element in mesh.triangles..mesh.elements.len() {
         let atom = &mesh.elements[element];
@@ -28,22 +31,18 @@ pub fn kinetic_temperature(mesh: &Mesh, state: &State) -> f64 {
         let node = mesh.first_node(element);
         mass = state.mass[node];
         let key = [atom.column, atom.row].map(|coordinate| coordinate.div_euclid(CELL));
-        let cell = cells.entry(key).or_insert_with(|| {
-            order.push(key);
-            Cell {
-                atoms: 0.0,
-                mean: [0.0; 2],
-                squared: 0.0,
-            }
-        });
+        if key != last.0 {
+            last = (key, *number_of.entry(key).or_insert(cells.len()));
+            cells.resize_with(number_of.len(), Cell::default);
+        }
+        let cell = &mut cells[last.1];
         let velocity = [state.velocity[0][node], state.velocity[1][node]];
         cell.atoms += 1.0;
         (0..2).for_each(|axis| cell.mean[axis] += velocity[axis]);
         cell.squared += velocity[0] * velocity[0] + velocity[1] * velocity[1];
     }
     let [mut squared, mut freedom] = [0.0; 2];
-    for key in order {
-        let cell = &cells[&key];
+    for cell in cells {
         squared += cell.squared - (cell.mean[0] * cell.mean[0] + cell.mean[1] * cell.mean[1]) / cell.atoms;
         freedom += 2.0 * (cell.atoms - 1.0);
     }

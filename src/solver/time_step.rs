@@ -18,9 +18,12 @@ pub const CHECK_EVERY: u64 = 100;
 /// How near to the limit an automatic time step may come before it is made shorter.
 const NEAREST: f64 = 0.75;
 
-/// Stability limit of a state whose forces have just been computed, ps.
+/// Stability limit of a state whose forces have just been computed, ps, to nine digits: what rounding does to the rest may
+/// depend on which elements are computed together, and must not get into a time step.
 pub fn limit(forces: &Forces, state: &State) -> f64 {
-    stability_limit(forces.squared_frequency_bound_computed(state))
+    const DROPPED_BITS: u64 = (1 << 22) - 1;
+    let limit = stability_limit(forces.squared_frequency_bound_computed(state));
+    f64::from_bits(limit.to_bits() & !DROPPED_BITS)
 }
 
 impl TimeStep {

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 /// A module imports only from the floors below its own.
 const FLOORS: [&[&str]; 10] = [
-    &["units"],
+    &["units", "lanes"],
     &["lattice", "potential", "study"],
     &["mesh", "material", "plan"],
     &["state", "store"],

@@ -2,7 +2,8 @@
 
 use std::hint::black_box;
 
-use multiversion::multiversion;
+use cgaft::lanes::{Lanes, MOST};
+use pulp::{Arch, Simd, WithSimd};
 
 use super::Roof;
 use crate::performance::clock;
@@ -18,32 +19,56 @@ pub fn roof() -> Roof {
     }
 }
 
-/// Numbers of a vector, and vectors that do not wait for each other.
-const LANES: usize = 8;
+/// Vectors that do not wait for each other.
 const CHAINS: usize = 12;
 
 fn peak_flops() -> f64 {
     const TIMES: usize = 4_000_000;
     let sample = || {
-        let mut sums = [[1.0; LANES]; CHAINS];
-        let seconds = clock::core_seconds(|| multiply_add(&mut sums, black_box(0.999_999), black_box(1e-6), TIMES));
-        black_box(sums);
-        1e-9 * (2 * LANES * CHAINS * TIMES) as f64 / seconds
+        let mut sum = [0.0; MOST];
+        let mut lanes = 0;
+        let seconds = clock::core_seconds(|| {
+            lanes = Arch::new().dispatch(MultiplyAdd {
+                sum: &mut sum,
+                factor: black_box(0.999_999),
+                term: black_box(1e-6),
+                times: TIMES,
+            });
+        });
+        black_box(sum);
+        1e-9 * (2 * lanes * CHAINS * TIMES) as f64 / seconds
     };
     clock::median_of(SAMPLES, sample)
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
-fn multiply_add(sums: &mut [[f64; LANES]; CHAINS], factor: f64, term: f64, times: usize) {
-    let mut here = *sums;
-    for _ in 0..times {
-        for chain in &mut here {
-            for lane in chain {
-                *lane = lane.mul_add(factor, term);
+/// Multiplies and adds so many times in every lane of every chain; gives the number of lanes.
+struct MultiplyAdd<'a> {
+    sum: &'a mut [f64; MOST],
+    factor: f64,
+    term: f64,
+    times: usize,
+}
+
+impl WithSimd for MultiplyAdd<'_> {
+    type Output = usize;
+
+    #[inline(always)]
+    fn with_simd<L: Simd>(self, simd: L) -> usize {
+        let [factor, term] = [self.factor, self.term].map(|number| Lanes::all(simd, number));
+        // Different starts, or one chain would do for all.
+        let mut chains: [Lanes<L>; CHAINS] = std::array::from_fn(|chain| Lanes::all(simd, chain as f64));
+        for _ in 0..self.times {
+            for chain in &mut chains {
+                *chain = chain.mul_add(factor, term);
             }
         }
+        let mut sum = chains[0];
+        for chain in &chains[1..] {
+            sum = sum + *chain;
+        }
+        *self.sum = sum.numbers();
+        Lanes::<L>::COUNT
     }
-    *sums = here;
 }
 
 /// a = b + s c over arrays of this length: two numbers read and one written, 24 bytes.
@@ -61,9 +86,24 @@ fn bandwidth(length: usize, times: usize) -> f64 {
     clock::median_of(SAMPLES, sample)
 }
 
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
 fn triad(a: &mut [f64], b: &[f64], c: &[f64], scale: f64) {
-    for ((a, b), c) in a.iter_mut().zip(b).zip(c) {
-        *a = c.mul_add(scale, *b);
+    Arch::new().dispatch(Triad { a, b, c, scale });
+}
+
+struct Triad<'a> {
+    a: &'a mut [f64],
+    b: &'a [f64],
+    c: &'a [f64],
+    scale: f64,
+}
+
+impl WithSimd for Triad<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<L: Simd>(self, _: L) {
+        for ((a, b), c) in self.a.iter_mut().zip(self.b).zip(self.c) {
+            *a = c.mul_add(self.scale, *b);
+        }
     }
 }

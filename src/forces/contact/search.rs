@@ -6,7 +6,9 @@ use super::super::affine::site_position;
 use super::super::interface::State;
 use super::super::summation::Summation;
 use super::super::{CHUNK, Planes};
-use super::{Contacts, Partner};
+use super::Contacts;
+use super::lattice::{AtomLattice, Surroundings, pair_along};
+use super::partners::{Pair, Partner};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
@@ -21,7 +23,7 @@ pub struct Field<'a> {
 
 impl Field<'_> {
     /// Triangles that may meet something other than their intact neighbours.
-    fn searched(&self) -> Vec<bool> {
+    fn searched(&self) -> Vec<u32> {
         let mut searched = self.interfaces.exposed.clone();
         let disturbed = self
             .interfaces
@@ -33,7 +35,60 @@ impl Field<'_> {
             searched[pair.first as usize] = true;
             searched[pair.second as usize] = true;
         }
-        searched
+        (0..self.mesh.triangles as u32)
+            .filter(|&triangle| searched[triangle as usize])
+            .collect()
+    }
+
+    /// Those of some triangles that may come within a distance of other triangles to which no intact interface joins them,
+    /// or of atoms.
+    fn meeting(&self, triangles: &[u32], atoms: &[u32], distance: f64, position: &Planes) -> Vec<u32> {
+        let corners = |triangle: u32, axis: usize| &position[axis][3 * triangle as usize..3 * triangle as usize + 3];
+        let range = |triangle: u32, axis: usize| {
+            let corners = corners(triangle, axis).iter();
+            corners.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| {
+                [low.min(x), high.max(x)]
+            })
+        };
+        let boxes: Vec<[[f64; 2]; 2]> = triangles
+            .iter()
+            .map(|&number| [range(number, 0), range(number, 1)])
+            .collect();
+        let largest = boxes
+            .iter()
+            .flatten()
+            .fold(0.0, |most: f64, [low, high]| most.max(high - low));
+        let centre = |sides: &[[f64; 2]; 2]| sides.map(|[low, high]| 0.5 * (low + high));
+        let centres: Vec<[f64; 2]> = boxes.iter().map(centre).collect();
+        let grid = Grid::new(&centres, largest + distance);
+        let gap = |one: [f64; 2], other: [f64; 2]| (one[0] - other[1]).max(other[0] - one[1]);
+        let are_near =
+            |one: &[[f64; 2]; 2], other: &[[f64; 2]; 2]| (0..2).all(|axis| gap(one[axis], other[axis]) < distance);
+        let mut meets = vec![false; triangles.len()];
+        for one in 0..triangles.len() {
+            grid.for_each_near(centres[one], |other| {
+                if other > one
+                    && are_near(&boxes[one], &boxes[other])
+                    && !self.summed_elsewhere(triangles[one], triangles[other])
+                {
+                    meets[one] = true;
+                    meets[other] = true;
+                }
+            });
+        }
+        for &atom in atoms {
+            let node = 3 * self.mesh.triangles + atom as usize;
+            let place = [position[0][node], position[1][node]];
+            grid.for_each_near(place, |triangle| {
+                meets[triangle] |= are_near(&boxes[triangle], &place.map(|x| [x, x]));
+            });
+        }
+        triangles
+            .iter()
+            .zip(meets)
+            .filter(|&(_, meets)| meets)
+            .map(|(&triangle, _)| triangle)
+            .collect()
     }
 
     /// Whether pairs of sites of these elements are summed elsewhere: inside a triangle or along intact strings.
@@ -52,79 +107,124 @@ impl Field<'_> {
     }
 }
 
-/// Sites that may have partners.
+/// Sites that may have partners: those of triangles first, then atoms.
 struct Candidates {
     element: Vec<u32>,
     local: Vec<[i16; 2]>,
     position: Vec<[f64; 2]>,
+    /// How many of them belong to triangles.
+    carried: usize,
 }
+
+/// The partners of some consecutive candidates: how many each has, and who they are, ascending.
+type Lists = Vec<(Vec<u32>, Vec<Partner>)>;
 
 impl Contacts {
     /// Lists the partners of every site at these positions.
-    pub fn search(field: &Field, material: &Material, position: &Planes) -> Self {
+    pub fn search(field: &Field, lattice: &mut AtomLattice, material: &Material, position: &Planes) -> Self {
         let skin = Self::SKIN * material.spacing;
         let radius = material.interaction.cutoff() + skin;
-        let searched = field.searched();
-        let candidates = Candidates::new(field.mesh, &searched, position);
+        let triangles = field.searched();
+        let atoms = lattice.surroundings(field.mesh, position);
+        let meeting = field.meeting(&triangles, &atoms.candidates, radius, position);
+        let candidates = Candidates::new(field.mesh, &meeting, &atoms.candidates, position);
         let grid = Grid::new(&candidates.position, radius);
-        let lists = candidates.partner_lists(field, &grid, radius);
-        let mut contacts = Self::from_lists(field.mesh, candidates, lists);
-        contacts.weigh_sites(field);
+        let lists = candidates.partner_lists(field, lattice, &atoms, &grid, radius);
+        let mut contacts = Self::from_lists(field, lattice, &atoms, &candidates, &lists);
+        let first_atom = 3 * field.mesh.triangles as u32;
+        let of_triangles = triangles.iter().flat_map(|triangle| 3 * triangle..3 * triangle + 3);
+        let of_atoms = atoms.candidates.iter().map(|atom| first_atom + atom);
+        contacts.nodes = of_triangles.chain(of_atoms).collect();
+        let place = |&node: &u32| [0, 1].map(|axis: usize| position[axis][node as usize]);
+        contacts.reference = contacts.nodes.iter().map(place).collect();
         contacts.half_skin = 0.5 * skin;
         contacts.spacing = material.spacing;
-        contacts.reference = position.clone();
-        contacts.searched = searched;
+        contacts
+    }
+
+    /// Keeps all atoms and those sites of triangles that have partners, and numbers them anew.
+    fn from_lists(
+        field: &Field,
+        lattice: &AtomLattice,
+        atoms: &Surroundings,
+        candidates: &Candidates,
+        lists: &Lists,
+    ) -> Self {
+        let triangles = field.mesh.triangles;
+        let counts: Vec<u32> = lists.iter().flat_map(|(counts, _)| counts).copied().collect();
+        let mut contacts = Self {
+            of_triangle: vec![0; triangles + 1],
+            ..Self::default()
+        };
+        let mut number = Vec::with_capacity(candidates.element.len());
+        for candidate in 0..candidates.carried {
+            number.push(contacts.carrier.len());
+            if counts[candidate] > 0 {
+                contacts.carrier.push(candidates.element[candidate]);
+                contacts.local.push(candidates.local[candidate]);
+                contacts.of_triangle[candidates.element[candidate] as usize + 1] += 1;
+            }
+        }
+        let carried = contacts.carrier.len();
+        number.extend(atoms.candidates.iter().map(|&atom| carried + atom as usize));
+        for triangle in 0..triangles {
+            contacts.of_triangle[triangle + 1] += contacts.of_triangle[triangle];
+        }
+        contacts.weigh_sites(field);
+        let each_alone = !contacts.weight.is_empty();
+        let partners = &mut contacts.partners;
+        let mut next_atom = 0;
+        let mut candidate: usize = 0;
+        for (counts, mut listed) in lists.iter().map(|(counts, listed)| (counts, listed.as_slice())) {
+            for &count in counts {
+                let (mine, others) = listed.split_at(count as usize);
+                listed = others;
+                let renumbered = mine.iter().map(|other| other.renumbered(number[other.site()]));
+                match candidate.checked_sub(candidates.carried) {
+                    None if count > 0 => partners.push(renumbered, each_alone),
+                    None => {}
+                    Some(atom) => {
+                        let atom = atoms.candidates[atom] as usize;
+                        if atoms.searched[atom] {
+                            partners.extend(lattice.partners(), next_atom..atom, carried);
+                            partners.push(renumbered, each_alone);
+                            next_atom = atom + 1;
+                        }
+                    }
+                }
+                candidate += 1;
+            }
+        }
+        partners.extend(lattice.partners(), next_atom..atoms.searched.len(), carried);
+        partners.finish();
         contacts
     }
 
     fn weigh_sites(&mut self, field: &Field) {
         if field.summation == Summation::Nodal {
-            let sites = self.element.iter().zip(&self.local);
-            let weight = sites.map(|(&element, &local)| {
-                let element = &field.mesh.elements[element as usize];
-                field.summation.site_weight(element, local.map(i32::from))
+            let carried = self.carrier.iter().zip(&self.local).map(|(&carrier, &local)| {
+                let carrier = &field.mesh.elements[carrier as usize];
+                field.summation.site_weight(carrier, local.map(i32::from))
             });
-            self.weight = weight.collect();
+            let atoms = field.mesh.elements.len() - field.mesh.triangles;
+            self.weight = carried.chain(std::iter::repeat_n(1.0, atoms)).collect();
         }
-    }
-
-    /// Keeps the sites that have partners and numbers them anew.
-    fn from_lists(mesh: &Mesh, candidates: Candidates, lists: Vec<(Vec<u32>, Vec<Partner>)>) -> Self {
-        let counts: Vec<u32> = lists.iter().flat_map(|(counts, _)| counts.iter().copied()).collect();
-        let mut number = vec![u32::MAX; counts.len()];
-        let mut contacts = Self {
-            start: vec![0],
-            of_element: vec![0; mesh.elements.len() + 1],
-            ..Self::default()
-        };
-        for (candidate, &count) in counts.iter().enumerate().filter(|&(_, &count)| count > 0) {
-            number[candidate] = contacts.element.len() as u32;
-            contacts.element.push(candidates.element[candidate]);
-            contacts.local.push(candidates.local[candidate]);
-            contacts.start.push(contacts.start[contacts.start.len() - 1] + count);
-            contacts.of_element[candidates.element[candidate] as usize + 1] += 1;
-        }
-        for element in 0..mesh.elements.len() {
-            contacts.of_element[element + 1] += contacts.of_element[element];
-        }
-        let partners = lists.into_iter().flat_map(|(_, partners)| partners);
-        let renumbered = partners.map(|partner| Partner::new(number[partner.site()] as usize, partner.severed()));
-        contacts.partners = renumbered.collect();
-        contacts
     }
 }
 
 impl Candidates {
-    fn new(mesh: &Mesh, searched: &[bool], position: &Planes) -> Self {
+    fn new(mesh: &Mesh, triangles: &[u32], atoms: &[u32], position: &Planes) -> Self {
         let mut element = Vec::new();
         let mut local = Vec::new();
-        let triangles = (0..mesh.triangles).filter(|&triangle| searched[triangle]);
-        for number in triangles.chain(mesh.triangles..mesh.elements.len()) {
-            for [p, q] in mesh.elements[number].locals() {
-                element.push(number as u32);
+        for &triangle in triangles {
+            for [p, q] in mesh.elements[triangle as usize].locals() {
+                element.push(triangle);
                 local.push([p as i16, q as i16]);
             }
         }
+        let carried = element.len();
+        element.extend(atoms.iter().map(|&atom| mesh.triangles as u32 + atom));
+        local.resize(element.len(), [0, 0]);
         let place = |(&element, local): (&u32, &[i16; 2])| {
             site_position(mesh, element as usize, local.map(i32::from), position)
         };
@@ -133,19 +233,32 @@ impl Candidates {
             element,
             local,
             position,
+            carried,
         }
     }
 
-    /// For every chunk of sites the number of partners of each and the partners, ascending.
-    fn partner_lists(&self, field: &Field, grid: &Grid, radius: f64) -> Vec<(Vec<u32>, Vec<Partner>)> {
+    fn partner_lists(
+        &self,
+        field: &Field,
+        lattice: &AtomLattice,
+        atoms: &Surroundings,
+        grid: &Grid,
+        radius: f64,
+    ) -> Lists {
         let chunks = self.element.len().div_ceil(CHUNK);
         let list = |chunk: usize| {
             let mut counts = Vec::with_capacity(CHUNK);
             let mut partners = Vec::with_capacity(8 * CHUNK);
-            for site in chunk * CHUNK..self.element.len().min((chunk + 1) * CHUNK) {
+            for candidate in chunk * CHUNK..self.element.len().min((chunk + 1) * CHUNK) {
                 let first = partners.len();
-                self.collect_partners(field, grid, radius, site, &mut partners);
-                partners[first..].sort_unstable_by_key(|partner| partner.site());
+                let atom = candidate
+                    .checked_sub(self.carried)
+                    .map(|at| atoms.candidates[at] as usize);
+                if atom.is_none_or(|atom| atoms.searched[atom]) {
+                    let is_watched = atom.is_some_and(|atom| !lattice.is_disturbed(atom));
+                    self.collect_partners(field, grid, radius, candidate, is_watched, &mut partners);
+                    partners[first..].sort_unstable_by_key(|partner| partner.site());
+                }
                 counts.push((partners.len() - first) as u32);
             }
             (counts, partners)
@@ -153,17 +266,32 @@ impl Candidates {
         (0..chunks).into_par_iter().map(list).collect()
     }
 
-    fn collect_partners(&self, field: &Field, grid: &Grid, radius: f64, site: usize, partners: &mut Vec<Partner>) {
-        let [x, y] = self.position[site];
+    fn collect_partners(
+        &self,
+        field: &Field,
+        grid: &Grid,
+        radius: f64,
+        candidate: usize,
+        is_watched: bool,
+        partners: &mut Vec<Partner>,
+    ) {
+        let [x, y] = self.position[candidate];
         let limit = radius * radius;
+        let site_of = |candidate: usize| {
+            let element = &field.mesh.elements[self.element[candidate] as usize];
+            element.site(self.local[candidate].map(i32::from))
+        };
+        let site = site_of(candidate);
         grid.for_each_near([x, y], |other| {
             let [dx, dy] = [self.position[other][0] - x, self.position[other][1] - y];
-            if dx * dx + dy * dy < limit && !field.summed_elsewhere(self.element[site], self.element[other]) {
-                let [a, b] = [site, other].map(|k| {
-                    let element = &field.mesh.elements[self.element[k] as usize];
-                    element.site(self.local[k].map(i32::from))
-                });
-                partners.push(Partner::new(other, field.mesh.severed(a, b)));
+            if dx * dx + dy * dy < limit && !field.summed_elsewhere(self.element[candidate], self.element[other]) {
+                let there = site_of(other);
+                let pair = match () {
+                    () if field.mesh.severed(site, there) => Pair::Severed,
+                    () if is_watched && other >= self.carried => pair_along([there[0] - site[0], there[1] - site[1]]),
+                    () => Pair::Any,
+                };
+                partners.push(Partner::new(other, pair));
             }
         });
     }

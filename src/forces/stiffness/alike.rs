@@ -1,29 +1,30 @@
 //! The stiffness of triangles that follow each other in the mesh and are alike to their neighbours, side by side.
 
-use multiversion::multiversion;
 use nalgebra::Matrix6;
+use pulp::{Simd, WithSimd};
 
 use super::{inside_weights, largest_eigenvalue};
 use crate::forces::Forces;
-use crate::forces::bulk::Reach;
 use crate::forces::interface;
-use crate::forces::lanes::Lanes;
-use crate::forces::maps::MapLanes;
+use crate::forces::maps::{MapLanes, squared};
 use crate::forces::summation::{Sample, SampledString};
+use crate::lanes::{Lanes, MOST, Mask};
 use crate::potential::{CutPotential, PairShape};
 
-/// Triangles computed at a time.
-pub const WIDTH: usize = 8;
+/// Triangles that are looked at together, on every machine: what a group is compared with is known before it.
+pub const WIDTH: usize = MOST;
 
 /// Blocks of the matrix on and above its diagonal, by their nodes; each is symmetric: xx, yy, xy.
 const BLOCKS: [[usize; 2]; 6] = [[0, 0], [0, 1], [0, 2], [1, 1], [1, 2], [2, 2]];
 
 /// xx, yy, xy of several triangles.
-type Hessian = [Lanes<WIDTH>; 3];
+type Hessian<L> = [Lanes<L>; 3];
 
 /// Stiffnesses of triangles side by side.
-#[derive(Default)]
-struct Stiffness([Hessian; 6]);
+struct Stiffness<L: Simd> {
+    simd: L,
+    blocks: [Hessian<L>; 6],
+}
 
 /// How much larger than the largest known an eigenvalue may be and pass for it: more than rounding, and nothing to a
 /// time step.
@@ -50,7 +51,7 @@ impl Forces {
                 .sides(triangle)
                 .map(|side| (side.kind, side.is_first, side.neighbour.wrapping_sub(moved)));
             self.mesh.elements[triangle].size == size
-                && self.contacts.sites_of(triangle).is_empty()
+                && self.contacts.sites_of(&self.mesh, triangle).is_empty()
                 && self
                     .interfaces
                     .of(triangle)
@@ -81,7 +82,6 @@ impl Forces {
 
 /// The largest eigenvalue over the mass of triangles that are alike, from this one on, or `known` if none is larger;
 /// `None` where their bonds are not all summed alike.
-#[multiversion(targets("x86_64+avx512f+avx512vl+avx512dq+avx2+fma", "x86_64+avx2+fma"))]
 pub fn largest<S: PairShape>(
     forces: &Forces,
     law: &CutPotential<S>,
@@ -89,100 +89,134 @@ pub fn largest<S: PairShape>(
     mass: f64,
     known: f64,
 ) -> Option<f64> {
-    let stiffness = stiffness(forces, law, from)?;
-    let is_below = stiffness.is_below(known * mass * (1.0 + SLACK));
-    let others = (0..WIDTH).filter(|&lane| !is_below[lane]);
-    Some(others.fold(known, |largest, lane| {
-        largest.max(largest_eigenvalue(&stiffness.alone(lane), mass, largest))
-    }))
+    forces.arch.dispatch(Largest {
+        forces,
+        law: *law,
+        from,
+        mass,
+        known,
+    })
 }
 
-#[inline(always)]
-fn stiffness<S: PairShape>(forces: &Forces, law: &CutPotential<S>, from: usize) -> Option<Stiffness> {
-    let element = &forces.mesh.elements[from];
-    let spacing = forces.material.spacing;
-    let own: MapLanes<WIDTH> = forces.maps.lanes(from);
-    let reach = Reach {
-        cutoff: law.cutoff(),
-        spacing,
-    };
-    let mut sum = Stiffness::default();
-    for bond in forces.bulk.within_all(element.size, &own, &reach)? {
-        let weights = inside_weights(bond.local, element.size);
-        let hessian = hessian(law, own.vector(bond.local), bond.count, |stiffness| stiffness);
-        sum.add(|[a, b]| weights[a] * weights[b], &hessian);
-    }
-    for side in forces.sides(from) {
-        let other: MapLanes<WIDTH> = forces.maps.lanes(side.neighbour as usize);
-        let kind = &forces.interfaces.kinds[side.kind as usize];
-        let [first, second] = if side.is_first { [&own, &other] } else { [&other, &own] };
-        let squared_gap = interface::squared_gap(kind, first, second);
-        let limit = forces.strings.hardly_open(spacing);
-        let is_hardly_open = squared_gap[0] <= limit;
-        if !squared_gap.every(|gap| (gap <= limit) == is_hardly_open) {
-            return None;
-        }
-        for SampledString { string, samples } in forces.strings.of(side.kind, is_hardly_open) {
-            let [a, b] = [first.at(string.first), second.at(string.second)];
-            let [da, db] = [first.vector(string.first_step), second.vector(string.second_step)];
-            let between = [b[0] - a[0], b[1] - a[1]];
-            let moments = moments(law, between, [db[0] - da[0], db[1] - da[1]], samples);
-            let (site, step) = if side.is_first {
-                (string.first, string.first_step)
-            } else {
-                (string.second, string.second_step)
-            };
-            // Shape functions are linear along a string, their products quadratic.
-            let start = element.shape_functions(site);
-            let next = element.shape_functions([site[0] + step[0], site[1] + step[1]]);
-            let change = [0, 1, 2].map(|k| next[k] - start[k]);
-            sum.add(|[a, b]| start[a] * start[b], &moments[0]);
-            sum.add(|[a, b]| start[a] * change[b] + change[a] * start[b], &moments[1]);
-            sum.add(|[a, b]| change[a] * change[b], &moments[2]);
-        }
-    }
-    Some(sum)
+struct Largest<'a, S> {
+    forces: &'a Forces,
+    law: CutPotential<S>,
+    from: usize,
+    mass: f64,
+    known: f64,
 }
 
-/// The sums over a string of what its bonds are worth against a wall, times the powers 0, 1 and 2 of the place along it.
-#[inline(always)]
-fn moments<S: PairShape>(
-    law: &CutPotential<S>,
-    start: [Lanes<WIDTH>; 2],
-    step: [Lanes<WIDTH>; 2],
-    samples: &[Sample],
-) -> [Hessian; 3] {
-    let mut moments = [Hessian::default(); 3];
-    for &Sample { at, weight } in samples {
-        let vector = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
-        let hessian = hessian(law, vector, weight, |stiffness| 2.0 * stiffness.max(0.0));
-        let powers = [1.0, at, at * at];
-        for order in 0..3 {
-            for k in 0..3 {
-                moments[order][k] = hessian[k].times_add(powers[order], moments[order][k]);
+impl<S: PairShape> WithSimd for Largest<'_, S> {
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn with_simd<L: Simd>(self, simd: L) -> Option<f64> {
+        let limit = self.known * self.mass * (1.0 + SLACK);
+        let mut largest = self.known;
+        for from in (self.from..self.from + WIDTH).step_by(Lanes::<L>::COUNT) {
+            let stiffness = self.stiffness(simd, from)?;
+            let is_below = stiffness.is_below(limit);
+            if is_below.every() {
+                continue;
+            }
+            let is_below = is_below.answers();
+            for lane in (0..Lanes::<L>::COUNT).filter(|&lane| !is_below[lane]) {
+                largest = largest.max(largest_eigenvalue(&stiffness.alone(lane), self.mass, largest));
             }
         }
+        Some(largest)
     }
-    moments
 }
 
-/// Second derivatives of the energies of bonds, each counting so many times.
-#[inline(always)]
-fn hessian<S: PairShape>(
-    law: &CutPotential<S>,
-    [x, y]: [Lanes<WIDTH>; 2],
-    count: f64,
-    bound: impl Fn(f64) -> f64,
-) -> Hessian {
-    let squared = x.mul_add(x, y * y);
-    let curvatures = law.curvatures(squared.0);
-    let slopes = law.slopes(squared.0);
-    let [mut along, mut across, mut difference] = [Lanes::<WIDTH>::default(); 3];
-    for lane in 0..WIDTH {
-        along.0[lane] = bound(count * curvatures[lane]);
-        across.0[lane] = bound(count * slopes[lane]);
-        difference.0[lane] = (along[lane] - across[lane]) / squared[lane];
+impl<S: PairShape> Largest<'_, S> {
+    /// The stiffness of some triangles from one on.
+    #[inline(always)]
+    fn stiffness<L: Simd>(&self, simd: L, from: usize) -> Option<Stiffness<L>> {
+        let forces = self.forces;
+        let element = &forces.mesh.elements[from];
+        let own = forces.maps.lanes(simd, from);
+        if !forces.limit.regular_inside(&own)?.every() {
+            return None;
+        }
+        let mut sum = Stiffness {
+            simd,
+            blocks: [[Lanes::all(simd, 0.0); 3]; 6],
+        };
+        for bond in forces.bulk.listed(element.size) {
+            let weights = inside_weights(bond.local, element.size);
+            let vector = own.vector(bond.vector);
+            let [along, across] = self.stiffnesses(simd, vector);
+            let hessian = hessian(vector, [along * bond.count, across * bond.count]);
+            sum.add(|[a, b]| weights[a] * weights[b], &hessian);
+        }
+        for side in forces.sides(from) {
+            let other = forces.maps.lanes(simd, side.neighbour as usize);
+            let maps = if side.is_first { [&own, &other] } else { [&other, &own] };
+            for sampled in &forces.strings.of(side.kind).strings {
+                let moments = self.moments(simd, sampled, maps);
+                let string = &sampled.string;
+                let (site, step) = if side.is_first {
+                    (string.first, string.first_step)
+                } else {
+                    (string.second, string.second_step)
+                };
+                // Shape functions are linear along a string, their products quadratic.
+                let start = element.shape_functions(site);
+                let next = element.shape_functions([site[0] + step[0], site[1] + step[1]]);
+                let change = [0, 1, 2].map(|k| next[k] - start[k]);
+                sum.add(|[a, b]| start[a] * start[b], &moments[0]);
+                sum.add(|[a, b]| start[a] * change[b] + change[a] * start[b], &moments[1]);
+                sum.add(|[a, b]| change[a] * change[b], &moments[2]);
+            }
+        }
+        Some(sum)
     }
+
+    /// The sums over a string of what its bonds are worth against a wall, times the powers 0, 1 and 2 of the place along
+    /// it.
+    #[inline(always)]
+    fn moments<L: Simd>(&self, simd: L, sampled: &SampledString, maps: [&MapLanes<L>; 2]) -> [Hessian<L>; 3] {
+        let zero = Lanes::all(simd, 0.0);
+        let mut moments = [[zero; 3]; 3];
+        let [start, step] = interface::bonds_along(sampled, maps);
+        let squared_bend = squared(step) * (sampled.length * sampled.length);
+        for (samples, share) in sampled.looks(simd, self.forces.material.spacing, squared_bend) {
+            if !share.is_above(0.0).any() {
+                continue;
+            }
+            for &Sample { at, weight } in samples {
+                let vector = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
+                let [along, across] = self.stiffnesses(simd, vector);
+                let count = share * (2.0 * weight);
+                let hessian = hessian(vector, [positive(along, zero) * count, positive(across, zero) * count]);
+                let powers = [1.0, at, at * at];
+                for order in 0..3 {
+                    for k in 0..3 {
+                        moments[order][k] = hessian[k].times_add(powers[order], moments[order][k]);
+                    }
+                }
+            }
+        }
+        moments
+    }
+
+    /// Stiffness of some bonds along their directions and across them: phi'' and phi'/r.
+    #[inline(always)]
+    fn stiffnesses<L: Simd>(&self, simd: L, vector: [Lanes<L>; 2]) -> [Lanes<L>; 2] {
+        let squared = squared(vector);
+        [self.law.curvatures(simd, squared), self.law.slopes(simd, squared)]
+    }
+}
+
+#[inline(always)]
+fn positive<L: Simd>(number: Lanes<L>, zero: Lanes<L>) -> Lanes<L> {
+    number.where_or(number.is_above(0.0), zero)
+}
+
+/// Second derivatives of the energies of bonds with their vectors.
+#[inline(always)]
+pub fn hessian<L: Simd>([x, y]: [Lanes<L>; 2], [along, across]: [Lanes<L>; 2]) -> Hessian<L> {
+    let difference = (along - across) * squared([x, y]).inverse();
     [
         (difference * x).mul_add(x, across),
         (difference * y).mul_add(y, across),
@@ -190,20 +224,20 @@ fn hessian<S: PairShape>(
     ]
 }
 
-impl Stiffness {
+impl<L: Simd> Stiffness<L> {
     #[inline(always)]
-    fn add(&mut self, weight: impl Fn([usize; 2]) -> f64, hessian: &Hessian) {
-        for block in 0..BLOCKS.len() {
-            let weight = weight(BLOCKS[block]);
+    fn add(&mut self, weight: impl Fn([usize; 2]) -> f64, hessian: &Hessian<L>) {
+        for (block, nodes) in self.blocks.iter_mut().zip(BLOCKS) {
+            let weight = weight(nodes);
             for k in 0..3 {
-                self.0[block][k] = hessian[k].times_add(weight, self.0[block][k]);
+                block[k] = hessian[k].times_add(weight, block[k]);
             }
         }
     }
 
     /// The entry of two components of nodes, in either order.
     #[inline(always)]
-    fn entry(&self, row: usize, column: usize) -> Lanes<WIDTH> {
+    fn entry(&self, row: usize, column: usize) -> Lanes<L> {
         let [a, b] = [row.min(column) / 2, row.max(column) / 2];
         let block = [0, 2, 3][a] + b;
         let component = match [row % 2, column % 2] {
@@ -211,30 +245,30 @@ impl Stiffness {
             [1, 1] => 1,
             _ => 2,
         };
-        self.0[block][component]
+        self.blocks[block][component]
     }
 
     /// Whether all eigenvalues are below a limit: the limit less the matrix then has a factorisation L D L^T with
     /// positive D.
     #[inline(always)]
-    fn is_below(&self, limit: f64) -> [bool; WIDTH] {
-        let mut below = [true; WIDTH];
-        let mut lower = [[Lanes::<WIDTH>::default(); 6]; 6];
-        let mut pivots = [Lanes::<WIDTH>::default(); 6];
+    fn is_below(&self, limit: f64) -> Mask<L> {
+        let zero = Lanes::all(self.simd, 0.0);
+        let mut below = Lanes::all(self.simd, 1.0).is_above(0.0);
+        let mut lower = [[zero; 6]; 6];
+        let mut pivots = [zero; 6];
         for column in 0..6 {
             for row in column..6 {
                 let shift = if row == column { limit } else { 0.0 };
-                let mut rest = Lanes::all(shift) - self.entry(row, column);
+                let mut rest = Lanes::all(self.simd, shift) - self.entry(row, column);
                 for k in 0..column {
                     rest = rest - lower[row][k] * lower[column][k] * pivots[k];
                 }
                 if row == column {
                     pivots[column] = rest;
-                    // Written so that what is not a number is looked at closely.
-                    (0..WIDTH).for_each(|lane| below[lane] &= rest[lane] > 0.0);
+                    // What is not a number is not above zero, and looked at closely.
+                    below = below.and(rest.is_above(0.0));
                 } else {
-                    let pivot = pivots[column];
-                    lower[row][column] = Lanes::each(|lane| rest[lane] / pivot[lane]);
+                    lower[row][column] = rest * pivots[column].inverse();
                 }
             }
         }
@@ -243,6 +277,6 @@ impl Stiffness {
 
     /// That of one triangle.
     fn alone(&self, lane: usize) -> Matrix6<f64> {
-        Matrix6::from_fn(|row, column| self.entry(row, column)[lane])
+        Matrix6::from_fn(|row, column| self.entry(row, column).numbers()[lane])
     }
 }

@@ -1,7 +1,7 @@
 //! Speeds of long waves, from pulses that run through atoms.
 
 use cgaft::forces::Forces;
-use cgaft::integrator::{drift, kick};
+use cgaft::integrator::{kick, kick_and_drift};
 use cgaft::mesh::Mesh;
 use cgaft::state::State;
 
@@ -52,8 +52,7 @@ fn speed(along: usize, displaced: usize, expected: f64) -> f64 {
     let mut time = 0.0;
     let moments = READ_AFTER.map(|distance| {
         while time * expected < distance * material.spacing {
-            kick(&mut state, 0.5 * TIME_STEP);
-            drift(&mut state, TIME_STEP);
+            kick_and_drift(&mut state, 1, TIME_STEP);
             compute(&mut state);
             kick(&mut state, 0.5 * TIME_STEP);
             time += TIME_STEP;

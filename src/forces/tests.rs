@@ -1,0 +1,64 @@
+use super::*;
+use crate::mesh::Plan;
+use crate::mesh::region::{Region, Shape};
+use crate::mesh::sites::Layout;
+use crate::potential::{AtCutoff, Interaction, LennardJones};
+use crate::state::State as Motion;
+
+/// A cracked slab of triangles and atoms, and positions in which some of it is torn.
+fn slab() -> (Forces, Planes) {
+    let shape = LennardJones {
+        epsilon: 1.0,
+        sigma: 1.0,
+    };
+    let law = CutPotential::new(shape, 1.9, AtCutoff::Smooth { from: 1.5 });
+    let material = Material::new(Interaction::LennardJones(law), 1.0).expect("the potential binds");
+    let layout = Layout {
+        block: 10,
+        rows: 6,
+        triangles: 13,
+    };
+    let band = Region {
+        shape: Shape::Band { half_width: 7.0 },
+        element: 1,
+    };
+    let mesh = Mesh::new(&Plan {
+        layout,
+        element: 10,
+        regions: vec![band],
+        crack_length: Some(30.0),
+        grip_rows: 10,
+        spacing: material.spacing,
+    });
+    let mut position = mesh.node_positions();
+    for node in 0..mesh.node_count() {
+        let [x, y] = [position[0][node], position[1][node]];
+        position[0][node] += 0.03 * (0.7 * y).sin();
+        position[1][node] += 0.04 * (y - mesh.middle_height()) + 0.3 * (0.5 * x).sin();
+    }
+    (Forces::new(mesh, material), position)
+}
+
+#[test]
+fn every_instruction_set_gives_the_same_bits() {
+    let forces_with = |arch: Arch| {
+        let (mut forces, position) = slab();
+        forces.arch = arch;
+        let mut force = position.each_ref().map(|axis| vec![0.0; axis.len()]);
+        forces.compute(&position, &mut force).expect("the slab is sound");
+        assert!(!forces.open_interfaces().is_empty());
+        let measure = forces.measure_computed(&position);
+        let state = Motion::at_rest(position, forces.mesh.lumped_masses());
+        let bound = forces.squared_frequency_bound_computed(&state);
+        let virial = measure.virial.into_flattened();
+        let numbers = force.into_iter().flatten().chain(virial);
+        let numbers = numbers.chain([measure.energy, measure.pairs, bound]);
+        numbers.map(f64::to_bits).collect::<Vec<_>>()
+    };
+    let one_by_one = forces_with(Arch::Scalar);
+    assert_eq!(forces_with(Arch::new()), one_by_one);
+    #[cfg(target_arch = "x86_64")]
+    if let Some(avx2) = pulp::x86::V3::try_new() {
+        assert_eq!(forces_with(Arch::V3(avx2)), one_by_one);
+    }
+}

@@ -1,0 +1,190 @@
+//! The same arithmetic on several numbers at once, as many as the processor has room for.
+//!
+//! Lanes never mix and multiply-adds round once on every processor, so results have the same bits whatever the width.
+
+use std::ops::{Add, Mul, Sub};
+
+use pulp::Simd;
+
+/// Numbers side by side. `simd` says which instructions the processor has.
+#[derive(Clone, Copy, Debug)]
+pub struct Lanes<S: Simd> {
+    simd: S,
+    value: S::f64s,
+}
+
+/// A yes or no for each of some lanes.
+#[derive(Clone, Copy, Debug)]
+pub struct Mask<S: Simd> {
+    simd: S,
+    value: S::m64s,
+}
+
+impl<S: Simd> Lanes<S> {
+    /// How many lanes there are.
+    pub const COUNT: usize = S::F64_LANES;
+
+    #[inline(always)]
+    pub fn all(simd: S, value: f64) -> Self {
+        let value = simd.splat_f64s(value);
+        Self { simd, value }
+    }
+
+    /// What a function of the lane's number gives; slower than arithmetic.
+    #[inline(always)]
+    pub fn each(simd: S, of_lane: impl FnMut(usize) -> f64) -> Self {
+        let lanes: [f64; MOST] = std::array::from_fn(of_lane);
+        Self::load(simd, &lanes, 0)
+    }
+
+    /// The numbers from a place of a plane on.
+    #[inline(always)]
+    pub fn load(simd: S, plane: &[f64], from: usize) -> Self {
+        let value = S::as_simd_f64s(&plane[from..from + Self::COUNT]).0[0];
+        Self { simd, value }
+    }
+
+    /// Puts so many numbers from a place of a plane on.
+    #[inline(always)]
+    pub fn store(self, plane: &mut [f64], from: usize, count: usize) {
+        if count >= Self::COUNT {
+            S::as_mut_simd_f64s(&mut plane[from..from + Self::COUNT]).0[0] = self.value;
+        } else {
+            self.simd.partial_store_f64s(&mut plane[from..from + count], self.value);
+        }
+    }
+
+    /// The numbers of all lanes, zeros after them.
+    #[inline(always)]
+    pub fn numbers(self) -> [f64; MOST] {
+        let mut numbers = [0.0; MOST];
+        self.store(&mut numbers, 0, Self::COUNT);
+        numbers
+    }
+
+    /// self * factor + term, rounded once.
+    #[inline(always)]
+    pub fn mul_add(self, factor: Self, term: Self) -> Self {
+        let value = self.simd.mul_add_f64s(self.value, factor.value, term.value);
+        Self { value, ..self }
+    }
+
+    /// self * factor + term for the same factor in all lanes.
+    #[inline(always)]
+    pub fn times_add(self, factor: f64, term: Self) -> Self {
+        self.mul_add(Self::all(self.simd, factor), term)
+    }
+
+    /// 1 / self
+    #[inline(always)]
+    pub fn inverse(self) -> Self {
+        let value = self.simd.div_f64s(self.simd.splat_f64s(1.0), self.value);
+        Self { value, ..self }
+    }
+
+    #[inline(always)]
+    pub fn square_root(self) -> Self {
+        let value = self.simd.sqrt_f64s(self.value);
+        Self { value, ..self }
+    }
+
+    #[inline(always)]
+    pub fn is_below(self, limit: f64) -> Mask<S> {
+        let value = self.simd.less_than_f64s(self.value, self.simd.splat_f64s(limit));
+        Mask { simd: self.simd, value }
+    }
+
+    #[inline(always)]
+    pub fn is_above(self, limit: f64) -> Mask<S> {
+        let value = self.simd.greater_than_f64s(self.value, self.simd.splat_f64s(limit));
+        Mask { simd: self.simd, value }
+    }
+
+    /// The numbers where the mask says yes, those of the other elsewhere.
+    #[inline(always)]
+    pub fn where_or(self, mask: Mask<S>, other: Self) -> Self {
+        let value = self.simd.select_f64s(mask.value, self.value, other.value);
+        Self { value, ..self }
+    }
+}
+
+/// The most lanes any processor has.
+pub const MOST: usize = 8;
+
+impl<S: Simd> Mask<S> {
+    #[inline(always)]
+    pub fn all(simd: S, answer: bool) -> Self {
+        Lanes::all(simd, f64::from(u8::from(answer))).is_above(0.0)
+    }
+
+    #[inline(always)]
+    pub fn or(self, other: Self) -> Self {
+        let value = self.simd.or_m64s(self.value, other.value);
+        Self { value, ..self }
+    }
+
+    #[inline(always)]
+    pub fn and(self, other: Self) -> Self {
+        let value = self.simd.and_m64s(self.value, other.value);
+        Self { value, ..self }
+    }
+
+    /// Whether it says yes in any lane.
+    #[inline(always)]
+    pub fn any(self) -> bool {
+        self.simd.first_true_m64s(self.value) < Lanes::<S>::COUNT
+    }
+
+    /// Whether it says yes in all lanes.
+    #[inline(always)]
+    pub fn every(self) -> bool {
+        let value = self.simd.not_m64s(self.value);
+        !Self { value, ..self }.any()
+    }
+
+    /// What it says in each lane, and no after them.
+    #[inline(always)]
+    pub fn answers(self) -> [bool; MOST] {
+        let yes = Lanes::all(self.simd, 1.0).where_or(self, Lanes::all(self.simd, 0.0));
+        yes.numbers().map(|number| number > 0.0)
+    }
+}
+
+impl<S: Simd> Add for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn add(self, other: Self) -> Self {
+        let value = self.simd.add_f64s(self.value, other.value);
+        Self { value, ..self }
+    }
+}
+
+impl<S: Simd> Sub for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn sub(self, other: Self) -> Self {
+        let value = self.simd.sub_f64s(self.value, other.value);
+        Self { value, ..self }
+    }
+}
+
+impl<S: Simd> Mul for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, other: Self) -> Self {
+        let value = self.simd.mul_f64s(self.value, other.value);
+        Self { value, ..self }
+    }
+}
+
+impl<S: Simd> Mul<f64> for Lanes<S> {
+    type Output = Self;
+
+    #[inline(always)]
+    fn mul(self, factor: f64) -> Self {
+        self * Self::all(self.simd, factor)
+    }
+}
