@@ -11,7 +11,7 @@ use super::steps::MILLIONS;
 use super::{commands, page, specimens};
 
 /// Seconds of a core that the run may take; what takes longer is cut short, and its row says where.
-const LONGEST: f64 = 120.0;
+const LONGEST: f64 = 330.0;
 
 /// Where model A ends, and the strain from picture to picture, as the study has them.
 const WHOLE: f64 = 1.2;
@@ -120,7 +120,6 @@ fn study_to(end: f64, cases: &[&str]) -> String {
     );
     let cases: String = cases.iter().map(|case| format!("  {case}: {{}}\n")).collect();
     let path = page::scratch().join("model-a.yaml");
-    fs::create_dir_all(page::scratch()).expect("the scratch folder can be written");
     fs::write(&path, format!("{base}cases:\n{cases}")).expect("the scratch folder can be written");
     path.display().to_string()
 }

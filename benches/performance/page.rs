@@ -12,7 +12,9 @@ pub fn folder() -> PathBuf {
 
 /// Where runs may leave what they compute.
 pub fn scratch() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("target/performance")
+    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/performance");
+    fs::create_dir_all(&folder).expect("the scratch folder can be written");
+    folder
 }
 
 fn file(table: &str) -> PathBuf {
