@@ -79,6 +79,8 @@ pub struct Forces {
     maps: Maps,
     tiles: Vec<Tile>,
     limit: IntactLimit,
+    /// Interfaces that are not tight, ascending.
+    loosened: Vec<u32>,
     /// Interfaces that are tested in every step.
     watched: Vec<u32>,
     /// No sound coordinate is larger, nm.
@@ -133,13 +135,16 @@ impl Forces {
             maps,
             tiles,
             limit,
+            loosened: Vec::new(),
             watched: Vec::new(),
             farthest: Self::FARTHEST * largest,
             arch: Arch::new(),
             searches: 0,
             search_time: Duration::ZERO,
         };
-        forces.watch();
+        let severed = (0..).zip(&forces.interfaces.pairs).filter(|(_, pair)| pair.severed);
+        let severed: Vec<u32> = severed.map(|(number, _)| number).collect();
+        forces.watch(severed.into_iter());
         forces
     }
 
@@ -153,9 +158,8 @@ impl Forces {
 
     /// Numbers of the interfaces that have left the intact path, ascending: the only memory that a restart must keep.
     pub fn open_interfaces(&self) -> Vec<u32> {
-        (0..self.states.len() as u32)
-            .filter(|&number| self.is_open(number as usize))
-            .collect()
+        let loosened = self.loosened.iter().copied();
+        loosened.filter(|&number| self.is_open(number as usize)).collect()
     }
 
     /// Puts back what [`Self::open_interfaces`] gave.
@@ -163,7 +167,8 @@ impl Forces {
         self.states.fill(State::Tight);
         open.iter()
             .for_each(|&number| self.states[number as usize] = State::Open);
-        self.watch();
+        self.loosened.clear();
+        self.watch(open.iter().copied());
         self.atoms.calm();
         self.contacts.forget();
     }
@@ -237,7 +242,7 @@ impl Forces {
                     touched[triangle as usize / length] = true;
                 }
             }
-            self.watch();
+            self.watch(changed.into_iter().map(|(number, _)| number));
             self.contacts.forget();
             irregular.extend(self.sum_these_tiles(law, position, force, &touched));
         }
@@ -299,24 +304,28 @@ impl Forces {
 
     /// Finds out which interfaces must be tested in every step: those of triangles with an open interface. What follows from
     /// regular bonds ends where a crack begins.
-    fn watch(&mut self) {
-        let is_open = |number: usize| self.states[number] == State::Open;
-        let mut bordering = vec![false; self.mesh.triangles];
-        for (_, pair) in self
-            .interfaces
-            .pairs
+    fn watch(&mut self, changed: impl Iterator<Item = u32>) {
+        self.loosened.extend(changed);
+        self.loosened.sort_unstable();
+        self.loosened.dedup();
+        let open = self
+            .loosened
             .iter()
-            .enumerate()
-            .filter(|&(number, _)| is_open(number))
-        {
-            bordering[pair.first as usize] = true;
-            bordering[pair.second as usize] = true;
-        }
-        let pairs = self.interfaces.pairs.iter().enumerate();
-        let watched = pairs.filter(|&(number, pair)| {
-            !is_open(number) && (bordering[pair.first as usize] || bordering[pair.second as usize])
+            .map(|&number| number as usize)
+            .filter(|&number| self.is_open(number));
+        let beside = open.flat_map(|number| {
+            [
+                self.interfaces.pairs[number].first,
+                self.interfaces.pairs[number].second,
+            ]
         });
-        self.watched = watched.map(|(number, _)| number as u32).collect();
+        let of_those = beside
+            .flat_map(|triangle| self.interfaces.of(triangle as usize))
+            .copied();
+        let mut watched: Vec<u32> = of_those.filter(|&number| !self.is_open(number as usize)).collect();
+        watched.sort_unstable();
+        watched.dedup();
+        self.watched = watched;
     }
 
     fn prepare_contacts(&mut self, position: &Planes) -> Result<(), ForceError> {
@@ -328,6 +337,7 @@ impl Forces {
             mesh: &self.mesh,
             interfaces: &self.interfaces,
             states: &self.states,
+            loosened: &self.loosened,
             summation: self.summation,
         };
         let start = Instant::now();

@@ -24,25 +24,20 @@ impl Forces {
 
     /// Atoms that may have irregular bonds, and triangles that border anything but intact interfaces.
     fn elements_that_meet_others(&self) -> Vec<u32> {
-        let mut meets = self.interfaces.exposed.clone();
-        for (number, pair) in self.interfaces.pairs.iter().enumerate() {
-            if self.is_open(number) {
-                meets[pair.first as usize] = true;
-                meets[pair.second as usize] = true;
-            }
-        }
-        let triangles = (0..)
-            .zip(&meets)
-            .filter(|(_, meets)| **meets)
-            .map(|(triangle, _)| triangle);
-        triangles
-            .chain(
-                self.atoms
-                    .searched()
-                    .iter()
-                    .map(|atom| self.mesh.triangles as u32 + atom),
-            )
-            .collect()
+        let loosened = self.loosened.iter().map(|&number| number as usize);
+        let open = loosened.filter(|&number| self.is_open(number));
+        let beside = open.flat_map(|number| {
+            [
+                self.interfaces.pairs[number].first,
+                self.interfaces.pairs[number].second,
+            ]
+        });
+        let mut triangles: Vec<u32> = self.interfaces.exposed.iter().copied().chain(beside).collect();
+        triangles.sort_unstable();
+        triangles.dedup();
+        let first_atom = self.mesh.triangles as u32;
+        let atoms = self.atoms.searched().iter().map(|atom| first_atom + atom);
+        triangles.into_iter().chain(atoms).collect()
     }
 
     fn broken_bonds_of(&self, element: usize, position: &Planes) -> Vec<[i32; 3]> {

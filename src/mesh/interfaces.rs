@@ -64,8 +64,8 @@ pub struct Interfaces {
     start: Vec<u32>,
     /// Interfaces of each triangle, by the number of the neighbour.
     of_triangle: Vec<u32>,
-    /// Triangles that border an atom or a free surface or a cut: they meet more than other triangles.
-    pub exposed: Vec<bool>,
+    /// Triangles that border an atom or a free surface or a cut, ascending: they meet more than other triangles.
+    pub exposed: Vec<u32>,
 }
 
 /// Triangles whose sites come this close (in spacings) count as neighbours: the third shell.
@@ -81,10 +81,7 @@ impl Interfaces {
     pub fn new(mesh: &Mesh, bond_length: f64) -> Self {
         let bonds = triangular::vectors_within(bond_length);
         let around = triangular::vectors_within(REACH.max(bond_length));
-        let mut found = Self {
-            exposed: vec![false; mesh.triangles],
-            ..Self::default()
-        };
+        let mut found = Self::default();
         let mut kinds: HashMap<KindKey, u32> = HashMap::new();
         let mut near = Vec::new();
         let mut surroundings: HashMap<(i32, i32), Vec<[i32; 2]>> = HashMap::new();
@@ -94,7 +91,9 @@ impl Interfaces {
                 .entry(shape)
                 .or_insert_with(|| neighbours::surrounding(element, &around));
             let borders_others = neighbours::collect(mesh, element, surrounding, &mut near);
-            found.exposed[number] = borders_others || neighbours::borders_cut(mesh, element, &around);
+            if borders_others || neighbours::borders_cut(mesh, element, &around) {
+                found.exposed.push(number as u32);
+            }
             for &other in near.iter().filter(|&&other| other as usize > number) {
                 let second = &mesh.elements[other as usize];
                 let key = (

@@ -18,26 +18,23 @@ pub struct Field<'a> {
     pub mesh: &'a Mesh,
     pub interfaces: &'a Interfaces,
     pub states: &'a [State],
+    /// Interfaces that are not tight, ascending.
+    pub loosened: &'a [u32],
     pub summation: Summation,
 }
 
 impl Field<'_> {
-    /// Triangles that may meet something other than their intact neighbours.
+    /// Triangles that may meet something other than their intact neighbours, ascending.
     fn searched(&self) -> Vec<u32> {
-        let mut searched = self.interfaces.exposed.clone();
-        let disturbed = self
-            .interfaces
-            .pairs
+        let pairs = self
+            .loosened
             .iter()
-            .zip(self.states)
-            .filter(|&(_, &state)| state != State::Tight);
-        for (pair, _) in disturbed {
-            searched[pair.first as usize] = true;
-            searched[pair.second as usize] = true;
-        }
-        (0..self.mesh.triangles as u32)
-            .filter(|&triangle| searched[triangle as usize])
-            .collect()
+            .map(|&number| &self.interfaces.pairs[number as usize]);
+        let beside = pairs.flat_map(|pair| [pair.first, pair.second]);
+        let mut searched: Vec<u32> = self.interfaces.exposed.iter().copied().chain(beside).collect();
+        searched.sort_unstable();
+        searched.dedup();
+        searched
     }
 
     /// Those of some triangles that may come within a distance of other triangles to which no intact interface joins them,
