@@ -83,7 +83,8 @@ impl Store {
         Ok(manifest)
     }
 
-    pub(super) fn attempt(&self, id: &str) -> Option<Attempt> {
+    /// How far an unpublished run is; `None` where nothing was begun.
+    pub fn attempt(&self, id: &str) -> Option<Attempt> {
         files::read_json(&self.partial_folder(id).join("attempt.json")).ok()
     }
 }
