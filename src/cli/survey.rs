@@ -157,11 +157,12 @@ fn with_job(state: &State, reason: &str, job: &Whereabouts) -> String {
         }
         (Ok(Some(Sighting::Running)), _) => format!("running as Slurm job {id}"),
         (Err(why), _) => format!("{reason}; submitted as Slurm job {id}, of which nothing can be learned: {why}"),
-        (_, State::Missing | State::Partial(_)) => match job.ending() {
-            Some(ending) => format!("{reason}; {ending}"),
-            None => reason.to_owned(),
-        },
-        _ => format!("{reason} (Slurm job {id})"),
+        (Ok(Some(Sighting::Ended(_))), State::Missing | State::Partial(_)) | (Ok(None), State::Missing) => {
+            format!("{reason}; {}", job.fact())
+        }
+        (_, State::Failed(failure)) if failure.ended >= job.submitted => format!("{reason} (Slurm job {id})"),
+        // The job is of long ago, and somebody else has worked on the case since.
+        _ => reason.to_owned(),
     }
 }
 

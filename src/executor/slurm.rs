@@ -15,8 +15,12 @@ pub use script::{Script, Setting, scripts};
 pub use ticket::Ticket;
 pub use watch::{Settings, run};
 
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
+use std::fs;
 
+use jiff::Timestamp;
+
+use super::ExecutorError;
 use crate::store::Store;
 
 /// What the queue tells of a case that was handed over.
@@ -24,6 +28,7 @@ use crate::store::Store;
 pub struct Whereabouts {
     /// Such as `123_4`.
     pub slurm_id: String,
+    pub submitted: Timestamp,
     /// `None`: Slurm no longer knows it.
     pub sighting: Result<Option<Sighting>, String>,
 }
@@ -34,13 +39,13 @@ impl Whereabouts {
         matches!(self.sighting, Ok(Some(Sighting::Queued { .. } | Sighting::Running)))
     }
 
-    /// How the job ended, if it did, in words.
-    pub fn ending(&self) -> Option<String> {
-        match &self.sighting {
-            Ok(Some(Sighting::Ended(state))) => Some(ending::meaning(&self.slurm_id, Some(state))),
-            Ok(None) => Some(ending::meaning(&self.slurm_id, None)),
+    /// What became of a job that has ended.
+    pub fn fact(&self) -> String {
+        let word = match &self.sighting {
+            Ok(Some(Sighting::Ended(state))) => Some(state.as_str()),
             _ => None,
-        }
+        };
+        ending::fact(&self.slurm_id, word)
     }
 }
 
@@ -50,26 +55,51 @@ pub fn whereabouts<'a>(
     study: &str,
     ids: impl IntoIterator<Item = &'a str>,
 ) -> HashMap<String, Whereabouts> {
-    let posted: Vec<(&str, String)> = ids
+    let posted: Vec<(&str, String, Timestamp)> = ids
         .into_iter()
-        .filter_map(|id| Some((id, Ticket::read(store, id)?.slurm_id?)))
+        .filter_map(|id| Ticket::read(store, id).and_then(|ticket| Some((id, ticket.slurm_id?, ticket.submitted))))
         .collect();
     if posted.is_empty() {
         return HashMap::new();
     }
     let seen = commands::sightings(&job_name(study)).map_err(|error| error.to_string());
-    let of = |slurm_id: &str| {
-        seen.as_ref()
-            .map(|seen| seen.get(slurm_id).cloned())
-            .map_err(String::clone)
+    let whereabouts = |(id, slurm_id, submitted): (&str, String, Timestamp)| {
+        let sighting = seen.as_ref().map(|seen| seen.get(&slurm_id).cloned());
+        let whereabouts = Whereabouts {
+            sighting: sighting.map_err(String::clone),
+            slurm_id,
+            submitted,
+        };
+        (id.to_owned(), whereabouts)
     };
-    posted
-        .into_iter()
-        .map(|(id, slurm_id)| {
-            let sighting = of(&slurm_id);
-            (id.to_owned(), Whereabouts { slurm_id, sighting })
+    posted.into_iter().map(whereabouts).collect()
+}
+
+/// Forgets the jobs that are over, and what they said; those of these cases are kept.
+pub fn forget(store: &Store, kept: &BTreeSet<String>) -> Result<(), ExecutorError> {
+    let folder = ticket::folder(store);
+    let kept: Vec<String> = kept
+        .iter()
+        .flat_map(|id| {
+            [
+                Some(id.clone()),
+                Ticket::read(store, id).and_then(|ticket| ticket.slurm_id),
+            ]
         })
-        .collect()
+        .flatten()
+        .collect();
+    for path in fs::read_dir(&folder)
+        .into_iter()
+        .flatten()
+        .flatten()
+        .map(|entry| entry.path())
+    {
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        if !kept.iter().any(|kept| *kept == stem) {
+            fs::remove_file(&path).map_err(|source| ExecutorError::Log { path, source })?;
+        }
+    }
+    Ok(())
 }
 
 /// By which all jobs of a study are asked for at once.

@@ -1,5 +1,6 @@
 //! Hands cases over and watches them until the last has ended, or until the one who asked has seen enough.
 
+use std::collections::HashMap;
 use std::thread;
 use std::time::{Duration, Instant};
 
@@ -30,7 +31,6 @@ pub fn run(
     watcher: &mut dyn Watcher,
 ) -> Result<Vec<Ending>, ExecutorError> {
     let mut watch = Watch::new(store, jobs, settings, watcher);
-    watch.find_again()?;
     watch.hand_over(stop)?;
     if settings.detach {
         return Ok(watch.endings);
@@ -62,7 +62,7 @@ const LONGEST_PAUSE: Duration = Duration::from_secs(20);
 const HEED: Duration = Duration::from_millis(50);
 /// Questions in a row that Slurm may leave unanswered: it is restarted now and then.
 const MOST_UNANSWERED: u32 = 8;
-/// Looks at an ended job before its result is taken for missing: folders of a network show new files late.
+/// Looks at an ended job before its result is taken for missing, in case the network is slow.
 const LOOKS_FOR_A_RESULT: u32 = 3;
 
 struct Watch<'a> {
@@ -107,62 +107,74 @@ impl<'a> Watch<'a> {
         }
     }
 
-    /// Jobs of before that wait or run are not submitted twice.
-    fn find_again(&mut self) -> Result<(), ExecutorError> {
+    /// Submits what nobody works on and what no job of before waits for.
+    fn hand_over(&mut self, stop: &Stop) -> Result<(), ExecutorError> {
+        let free = self.free();
+        if free.is_empty() || stop.requested() {
+            return Ok(());
+        }
+        let _lock = self.store.lock_submission()?;
         let seen = commands::sightings(&job_name(&self.settings.study))?;
-        for case in &mut self.cases {
-            let job = &self.jobs[case.job];
-            let Some(ticket) = Ticket::read(self.store, &job.id) else {
-                continue;
-            };
-            let sighting = ticket.slurm_id.as_ref().and_then(|id| seen.get(id)).cloned();
-            if matches!(sighting, Some(Sighting::Queued { .. } | Sighting::Running)) {
-                let slurm_id = ticket.slurm_id.clone().unwrap_or_default();
-                self.endings[case.job] = Ending::HandedOver(slurm_id);
-                case.ticket = Some(ticket);
+        let free: Vec<usize> = free.into_iter().filter(|&job| !self.find_again(job, &seen)).collect();
+        let (store, settings) = (self.store, self.settings);
+        for script in scripts(store, &settings.study, self.jobs, &free, &settings.setting) {
+            let ticket = |&job: &usize| ticket_for(store, &self.jobs[job], script.threads);
+            let tickets: Vec<Ticket> = script.jobs.iter().map(ticket).collect();
+            // The jobs may begin before `sbatch` has ended.
+            tickets.iter().try_for_each(|ticket| ticket.write(store))?;
+            let array = commands::submit(&script.to_string())?;
+            for (task, (ticket, &job)) in tickets.into_iter().zip(&script.jobs).enumerate() {
+                let slurm_id = format!("{array}_{task}");
+                self.watcher.submitted(&self.jobs[job], &slurm_id);
+                let ticket = Ticket {
+                    slurm_id: Some(slurm_id.clone()),
+                    ..ticket
+                };
+                ticket.write(store)?;
+                self.follow(job, ticket, slurm_id);
             }
         }
         Ok(())
     }
 
-    /// Submits what nobody works on.
-    fn hand_over(&mut self, stop: &Stop) -> Result<(), ExecutorError> {
-        if stop.requested() {
-            return Ok(());
-        }
+    /// Cases without a job that no other process works on.
+    fn free(&mut self) -> Vec<usize> {
         let mut free = Vec::new();
         for case in self.cases.iter_mut().filter(|case| case.ticket.is_none()) {
             let job = &self.jobs[case.job];
-            if let State::Running(_) = self.store.state(&job.id) {
-                if !std::mem::replace(&mut case.told_busy, true) {
-                    self.watcher.waiting(job);
+            let ours = Ticket::read(self.store, &job.id).is_some();
+            match self.store.state(&job.id) {
+                State::Running(_) if !ours => {
+                    if !std::mem::replace(&mut case.told_busy, true) {
+                        self.watcher.waiting(job);
+                    }
                 }
-            } else {
-                free.push(case.job);
+                _ => free.push(case.job),
             }
         }
-        let store = self.store;
-        for script in scripts(store, &self.settings.study, self.jobs, &free, &self.settings.setting) {
-            let mut tickets: Vec<Ticket> = script
-                .jobs
-                .iter()
-                .map(|&job| ticket_for(store, &self.jobs[job], script.threads))
-                .collect();
-            // The jobs may begin before `sbatch` has ended.
-            tickets.iter().try_for_each(|ticket| ticket.write(store))?;
-            let array = commands::submit(&script.to_string())?;
-            for (task, (mut ticket, &job)) in tickets.drain(..).zip(&script.jobs).enumerate() {
-                let slurm_id = format!("{array}_{task}");
-                ticket.slurm_id = Some(slurm_id.clone());
-                ticket.write(store)?;
-                self.watcher.submitted(&self.jobs[job], &slurm_id);
-                self.endings[job] = Ending::HandedOver(slurm_id);
-                if let Some(case) = self.cases.iter_mut().find(|case| case.job == job) {
-                    case.ticket = Some(ticket);
-                }
-            }
+        free
+    }
+
+    /// Whether a job of before waits for this case or computes it.
+    fn find_again(&mut self, job: usize, seen: &HashMap<String, Sighting>) -> bool {
+        let Some(ticket) = Ticket::read(self.store, &self.jobs[job].id) else {
+            return false;
+        };
+        let Some(slurm_id) = ticket.slurm_id.clone() else {
+            return false;
+        };
+        let live = matches!(seen.get(&slurm_id), Some(Sighting::Queued { .. } | Sighting::Running));
+        if live {
+            self.follow(job, ticket, slurm_id);
         }
-        Ok(())
+        live
+    }
+
+    fn follow(&mut self, job: usize, ticket: Ticket, slurm_id: String) {
+        self.endings[job] = Ending::HandedOver(slurm_id);
+        if let Some(case) = self.cases.iter_mut().find(|case| case.job == job) {
+            case.ticket = Some(ticket);
+        }
     }
 
     fn cancel(&mut self) -> Result<(), ExecutorError> {
@@ -230,6 +242,9 @@ impl<'a> Watch<'a> {
     fn ending(&self, position: usize, stop: &Stop) -> Result<Option<Ending>, ExecutorError> {
         let case = &self.cases[position];
         let job = &self.jobs[case.job];
+        if case.missed > 0 {
+            self.store.look_anew(&job.id);
+        }
         let state = self.store.state(&job.id);
         let Some(Ticket {
             submitted,
