@@ -6,6 +6,7 @@
 //!   runs/<id>/              published: manifest.json is in it, and it is complete
 //!   runs/<id>.partial/      at work, interrupted or failed
 //!   .locks/<id>             locked while somebody works on the run
+//!   .slurm/                 tickets and output of jobs, which are the business of `executor::slurm`
 //! ```
 //!
 //! Only this module creates, renames and deletes run folders.

@@ -134,7 +134,7 @@ impl Check<'_> {
 
     fn option(&self, given: &Given<String>) -> Option<String> {
         let Given::Right(text, place) = given else { return None };
-        let name = text.split('=').next().unwrap_or_default();
+        let name = text.split(['=', ' ']).next().unwrap_or_default();
         if !text.starts_with("--") || text.contains(char::is_control) {
             let message = format!("`{text}` is no option of sbatch in its long form");
             self.refuse(*place, message, "write for example `options: [--mem=8G, --qos=long]`");

@@ -1,7 +1,8 @@
 #!/bin/bash
 # Stands in for Slurm under the names of its commands; jobs are processes of this machine, their states files in $FAKE_SLURM.
 # FAKE_STATE='TIMEOUT|TimeLimit' leaves every job in that state and never starts it (`vanish`: in none);
-# FAKE_REFUSE refuses every script; FAKE_GARBAGE makes squeue babble.
+# FAKE_REFUSE refuses every script; FAKE_GARBAGE makes squeue babble. A file `silent` there makes squeue fail; a file
+# `accounting` is what sacct answers.
 state=$FAKE_SLURM
 put() {
     echo "$2" >"$state/.$1.new"
@@ -55,6 +56,7 @@ node)
 squeue)
     [ -n "${FAKE_GARBAGE:-}" ] && echo "is anybody there?" && exit
     cd "$state" || exit
+    [ -e silent ] && echo "slurm_load_jobs error: Unable to contact slurm controller" >&2 && exit 1
     for job in [0-9]*_*[0-9]; do
         [ -e "$job" ] && echo "$job|$(cat "$job")"
     done
@@ -76,7 +78,8 @@ scontrol)
     echo "$2" >>"$state/requeues"
     touch "$state/$2.requeue"
     ;;
-*)
+sacct)
+    cat "$state/accounting" 2>/dev/null && exit
     echo "Slurm accounting storage is disabled" >&2
     exit 1
     ;;

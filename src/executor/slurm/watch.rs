@@ -109,13 +109,19 @@ impl<'a> Watch<'a> {
 
     /// Submits what nobody works on and what no job of before waits for.
     fn hand_over(&mut self, stop: &Stop) -> Result<(), ExecutorError> {
-        let free = self.free();
-        if free.is_empty() || stop.requested() {
+        let without: Vec<usize> = self
+            .cases
+            .iter()
+            .filter(|case| case.ticket.is_none())
+            .map(|case| case.job)
+            .collect();
+        if without.is_empty() || stop.requested() {
             return Ok(());
         }
         let _lock = self.store.lock_submission()?;
         let seen = commands::sightings(&job_name(&self.settings.study))?;
-        let free: Vec<usize> = free.into_iter().filter(|&job| !self.find_again(job, &seen)).collect();
+        let mut free = without;
+        free.retain(|&job| !self.find_again(job, &seen) && !self.is_busy(job));
         let (store, settings) = (self.store, self.settings);
         for script in scripts(store, &settings.study, self.jobs, &free, &settings.setting) {
             let ticket = |&job: &usize| ticket_for(store, &self.jobs[job], script.threads);
@@ -137,22 +143,16 @@ impl<'a> Watch<'a> {
         Ok(())
     }
 
-    /// Cases without a job that no other process works on.
-    fn free(&mut self) -> Vec<usize> {
-        let mut free = Vec::new();
-        for case in self.cases.iter_mut().filter(|case| case.ticket.is_none()) {
-            let job = &self.jobs[case.job];
-            let ours = Ticket::read(self.store, &job.id).is_some();
-            match self.store.state(&job.id) {
-                State::Running(_) if !ours => {
-                    if !std::mem::replace(&mut case.told_busy, true) {
-                        self.watcher.waiting(job);
-                    }
-                }
-                _ => free.push(case.job),
-            }
+    /// Whether another process computes it, of which the watcher is told once.
+    fn is_busy(&mut self, job: usize) -> bool {
+        let busy = matches!(self.store.state(&self.jobs[job].id), State::Running(_));
+        if busy
+            && let Some(case) = self.cases.iter_mut().find(|case| case.job == job)
+            && !std::mem::replace(&mut case.told_busy, true)
+        {
+            self.watcher.waiting(&self.jobs[job]);
         }
-        free
+        busy
     }
 
     /// Whether a job of before waits for this case or computes it.

@@ -101,3 +101,13 @@ fn what_only_slurm_can_do_is_not_asked_of_this_machine() {
     assert_eq!(refused.code, Some(2));
     assert!(refused.stderr.contains("--on slurm"), "{}", refused.stderr);
 }
+
+#[test]
+fn accounting_tells_of_jobs_that_the_queue_has_forgotten() {
+    let cluster = Cluster::new();
+    fs::write(cluster.slurm().join("accounting"), "100_0|OUT_OF_MEMORY\n").unwrap();
+    let mut run = cluster.command("run", &["--on", "slurm", "--only", "A"]);
+    let run = said(run.env("FAKE_STATE", "vanish"));
+    assert_eq!(run.code, Some(1));
+    assert!(run.stderr.contains("100_0 was out of memory"), "{}", run.stderr);
+}

@@ -68,6 +68,25 @@ fn jobs_outlive_the_terminal_and_are_found_again() {
 }
 
 #[test]
+fn a_slurm_that_is_silent_for_a_moment_ends_nothing() {
+    let cluster = Cluster::new();
+    let run = cluster.watching("FAKE_LONG");
+    let silent = cluster.slurm().join("silent");
+    fs::write(&silent, "").unwrap();
+    // Long enough for a question to go unanswered.
+    thread::sleep(Duration::from_secs(1));
+    cluster.warn();
+    fs::remove_file(silent).unwrap();
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(0),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+}
+
+#[test]
 fn two_who_hand_over_one_study_at_once_submit_it_once() {
     let cluster = Cluster::new();
     let start = || cluster.run().env("FAKE_PAUSE", "study:").spawn().unwrap();
