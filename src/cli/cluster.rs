@@ -30,18 +30,25 @@ pub fn setting(survey: &Survey, arguments: &Arguments) -> Result<Setting, CliErr
 
 /// What a run would hand over now. What waits or runs there already is not handed over twice.
 pub fn scripts_of(survey: &Survey, prepared: &Prepared, setting: &Setting) -> Vec<Script> {
-    let live = |id: &str| survey.entries.iter().any(|entry| entry.id == id && entry.is_on_slurm());
-    let chosen: Vec<usize> = (0..prepared.jobs.len())
-        .filter(|&job| !live(&prepared.jobs[job].id))
-        .collect();
+    let new = |&job: &usize| !survey.is_on_slurm(&prepared.jobs[job].id);
+    let chosen: Vec<usize> = (0..prepared.jobs.len()).filter(new).collect();
     scripts(&survey.store, &survey.plan.study, &prepared.jobs, &chosen, setting)
 }
 
-/// `3 cases to run as jobs of Slurm`
-pub fn summary(cases: usize) -> String {
-    match cases {
-        0 => "nothing to run".to_owned(),
-        _ => format!("{} to run as jobs of Slurm", format::count(cases, "case")),
+/// `2 cases to run as jobs of Slurm, 1 is there already`
+pub fn summary(survey: &Survey, prepared: &Prepared) -> String {
+    let there = prepared.jobs.iter().filter(|job| survey.is_on_slurm(&job.id)).count();
+    match (prepared.jobs.len() - there, there) {
+        (0, 0) => "nothing to run".to_owned(),
+        (0, there) => format!(
+            "nothing to hand over, {} on Slurm already",
+            format::count(there, "case")
+        ),
+        (new, 0) => format!("{} to run as jobs of Slurm", format::count(new, "case")),
+        (new, there) => format!(
+            "{} to run as jobs of Slurm, {there} there already",
+            format::count(new, "case")
+        ),
     }
 }
 

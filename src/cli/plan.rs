@@ -44,7 +44,12 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
         let folder = survey.store.partial_folder(&entry.id);
         let command = launch::launch(&solver, &folder, threads.unwrap_or(share.threads)).to_string();
         let runs = arguments.fresh || !matches!(entry.state, State::Done(_));
-        let doing = if runs { "run" } else { "skip" };
+        let waits = arguments.on == On::Slurm && entry.is_on_slurm();
+        let doing = match (runs, waits) {
+            (true, true) => "wait",
+            (true, false) => "run",
+            (false, _) => "skip",
+        };
         let reason = if runs && matches!(entry.state, State::Done(_)) {
             run::FRESH
         } else {
@@ -55,7 +60,7 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
             words.push_str(&format!("    {command}\n"));
         }
         let mut case = entry.to_json();
-        case["runs"] = json!(runs);
+        case["runs"] = json!(runs && !waits);
         case["reason"] = json!(reason);
         case["command"] = json!(command);
         cases.push(case);
@@ -77,7 +82,7 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
             let setting = cluster::setting(&survey, arguments)?;
             let scripts = cluster::scripts_of(&survey, &prepared, &setting);
             let texts: Vec<String> = scripts.iter().map(ToString::to_string).collect();
-            words.push_str(&format!("\n{}\n", cluster::summary(number)));
+            words.push_str(&format!("\n{}\n", cluster::summary(&survey, &prepared)));
             texts.iter().for_each(|text| words.push_str(&format!("\n{text}")));
             json["scripts"] = json!(texts);
         }

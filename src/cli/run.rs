@@ -176,7 +176,9 @@ fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: 
             State::Done(_) if arguments.fresh => format!("{}: runs ({FRESH})", planned.name),
             State::Done(_) => format!("{}: done (unchanged)", planned.name),
             State::Running(_) => format!("{}: {reason}", planned.name),
-            _ if survey.entries[position].is_on_slurm() => format!("{}: {reason}", planned.name),
+            _ if arguments.on == On::Slurm && survey.entries[position].is_on_slurm() => {
+                format!("{}: {reason}", planned.name)
+            }
             _ => format!("{}: runs ({reason})", planned.name),
         });
         if planned.case.execution.ranks > 1 {
@@ -190,7 +192,7 @@ fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: 
     if !prepared.jobs.is_empty() {
         terminal.say(&match arguments.on {
             On::Local => summary(prepared.jobs.len(), prepared.share),
-            On::Slurm => cluster::summary(prepared.jobs.len()),
+            On::Slurm => cluster::summary(survey, prepared),
         });
     }
 }

@@ -99,6 +99,11 @@ pub fn survey(file: &str, results: &Path) -> Result<Survey, CliError> {
 }
 
 impl Survey {
+    /// Whether this case waits or runs as a job.
+    pub fn is_on_slurm(&self, id: &str) -> bool {
+        self.entries.iter().any(|entry| entry.id == id && entry.is_on_slurm())
+    }
+
     /// Looks again, after something has run.
     pub fn refresh(&mut self) {
         self.entries = entries(&self.store, &self.plan);
