@@ -1,7 +1,9 @@
 //! What a person types: one file a command.
 
+mod cancel;
 mod check;
 mod clean;
+mod cluster;
 mod completions;
 mod doctor;
 mod error;
@@ -14,6 +16,7 @@ mod progress;
 mod report;
 mod run;
 mod schema;
+mod slurm_job;
 pub mod solve;
 mod status;
 mod survey;
@@ -53,6 +56,9 @@ enum Command {
     Completions(completions::Arguments),
     /// Tell what this machine has, and what to do about the rest
     Doctor,
+    /// Compute one case inside a job of Slurm; the scripts of `study run --on slurm` call it
+    #[command(hide = true)]
+    SlurmJob(slurm_job::Arguments),
 }
 
 #[derive(Debug, Subcommand)]
@@ -62,9 +68,11 @@ enum StudyCommand {
     /// Validate a study and tell the size and cost of each case; computes nothing
     Check(survey::Common),
     /// Tell what would run, why, and the exact command
-    Plan(survey::OfResults),
+    Plan(plan::Arguments),
     /// Tell the state of every case
     Status(survey::OfResults),
+    /// End the jobs of a study on Slurm; those at work write a checkpoint first
+    Cancel(survey::OfResults),
     /// Build tables, figures and report again from what is there
     Report(survey::OfResults),
     /// Remove unpublished and superseded runs
@@ -95,6 +103,7 @@ impl Command {
             Command::Study(StudyCommand::Check(common)) => check::check(&common),
             Command::Study(StudyCommand::Plan(arguments)) => plan::plan(&arguments),
             Command::Study(StudyCommand::Status(arguments)) => status::status(&arguments),
+            Command::Study(StudyCommand::Cancel(arguments)) => cancel::cancel(&arguments),
             Command::Study(StudyCommand::Report(arguments)) => report::rebuild_report(&arguments),
             Command::Study(StudyCommand::Clean(arguments)) => clean::clean(&arguments),
             Command::Export(export::Command::Lammps(arguments)) => export::lammps(&arguments),
@@ -102,6 +111,7 @@ impl Command {
             Command::New(arguments) => new::new(&arguments),
             Command::Completions(arguments) => completions::completions(&arguments),
             Command::Doctor => doctor::doctor(),
+            Command::SlurmJob(arguments) => slurm_job::slurm_job(&arguments),
         }
     }
 
@@ -109,8 +119,9 @@ impl Command {
         match self {
             Command::Study(StudyCommand::Run(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Check(common)) => common.json,
-            Command::Study(StudyCommand::Plan(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Plan(arguments)) => arguments.of.common.json,
             Command::Study(StudyCommand::Status(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Cancel(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Report(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Clean(arguments)) => arguments.of.common.json,
             Command::Export(export::Command::Lammps(arguments)) => arguments.common.json,

@@ -1,7 +1,7 @@
 //! Starts the solver, one process a case, and sees each through to its end.
 //!
-//! Making a command ([`launch`]) and starting it ([`local`]) are separate, so that `cgaft study plan` can show it
-//! and another way of starting (a scheduler) can use it.
+//! Making a command ([`launch`]) and starting it ([`local`]) are separate, so that `cgaft study plan` can show it.
+//! [`slurm`] starts jobs that do the same on another machine.
 
 pub mod exit;
 pub mod launch;
@@ -10,6 +10,7 @@ pub mod probe;
 pub mod progress;
 pub mod queue;
 pub mod share;
+pub mod slurm;
 pub mod stop;
 
 pub use launch::Launch;
@@ -34,6 +35,8 @@ pub enum ExecutorError {
     Start { program: PathBuf, source: io::Error },
     #[error("cannot write {}: {source}; check the disk, or choose another folder with --results DIR", path.display())]
     Log { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Slurm(#[from] slurm::SlurmError),
     #[error(transparent)]
     Store(#[from] StoreError),
 }

@@ -19,7 +19,8 @@ pub use starter::starter;
 pub use write::write_case;
 
 use crate::study::{
-    self, CaseFile, Finding, Findings, Given, Place, Refusal, Study, StudyError, Table, case::Case, resolve,
+    self, CaseFile, Finding, Findings, Given, Place, Refusal, Study, StudyError, Table, case::Case, cluster::Cluster,
+    resolve,
 };
 use std::collections::HashMap;
 
@@ -34,6 +35,8 @@ pub struct Plan {
     /// What the results are to be compared with.
     pub comparisons: Vec<Comparison>,
     pub cases: Vec<PlannedCase>,
+    /// What its jobs get on a cluster.
+    pub cluster: Cluster,
     /// The study as read, and its cases as typed: where a refusal points.
     read: Study,
     typed: HashMap<String, Given<CaseFile>>,
@@ -62,6 +65,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let drafts = expansion::expand(content, findings);
     let number = drafts.len();
     let comparisons = comparison::read(study, &drafts, findings);
+    let cluster = study::cluster::resolve(&content.cluster, findings);
     for draft in drafts {
         if let Some(first) = places.insert(draft.name.to_lowercase(), draft.place) {
             let message = format!("two cases would be called `{}`", draft.name);
@@ -93,6 +97,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         title: content.report.right().and_then(|report| text(&report.title)),
         comparisons,
         cases,
+        cluster,
         read: study.clone(),
         typed,
     })

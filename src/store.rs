@@ -6,6 +6,7 @@
 //!   runs/<id>/              published: manifest.json is in it, and it is complete
 //!   runs/<id>.partial/      at work, interrupted or failed
 //!   .locks/<id>             locked while somebody works on the run
+//!   .slurm/                 tickets and output of jobs, which are the business of `executor::slurm`
 //! ```
 //!
 //! Only this module creates, renames and deletes run folders.
@@ -112,7 +113,16 @@ impl Store {
 
     /// Waits until nobody else writes tables, figures and report, and keeps others from it until the answer is dropped.
     pub fn lock_report(&self) -> Result<File, StoreError> {
-        let path = self.lock_path("report");
+        self.lock("report")
+    }
+
+    /// The same for handing cases over to a scheduler, so that none is handed over twice.
+    pub fn lock_submission(&self) -> Result<File, StoreError> {
+        self.lock("submission")
+    }
+
+    fn lock(&self, name: &str) -> Result<File, StoreError> {
+        let path = self.lock_path(name);
         let file = files::open_lock(&path)?;
         file.lock().map_err(StoreError::write(&path))?;
         Ok(file)

@@ -5,6 +5,7 @@
 //! [`case::Case`] once it makes sense (`resolve`). Mistakes are collected on the way and told all at once.
 
 pub mod case;
+pub mod cluster;
 mod defaults;
 mod error;
 mod file;

@@ -1,10 +1,11 @@
 use clap::Args;
 use serde_json::json;
 
-use super::survey::{self, OfResults};
+use super::survey::{self, OfResults, Survey};
 use super::terminal::Terminal;
 use super::{CliError, format};
-use crate::store::{Leftover, Store};
+use crate::executor::slurm;
+use crate::store::Leftover;
 
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -18,14 +19,16 @@ pub struct Arguments {
 /// `cgaft study clean FILE`
 pub fn clean(arguments: &Arguments) -> Result<u8, CliError> {
     let OfResults { common, place } = &arguments.of;
-    let plan = survey::read(&common.study)?;
-    let store = Store::open(&place.results, &plan.study)?;
+    let Survey { plan, store, entries } = survey::survey(&common.study, &place.results)?;
     let current = plan.cases.iter().map(|case| case.id.to_string()).collect();
     let names = plan.cases.iter().map(|case| case.name.clone()).collect();
+    let on_slurm = entries.iter().filter(|entry| entry.is_on_slurm());
+    let waiting = on_slurm.map(|entry| entry.id.clone()).collect();
     let leftovers = if arguments.dry_run {
-        store.leftovers(&current)?
+        store.leftovers(&current, &waiting)?
     } else {
-        store.clean(&current, &names)?
+        slurm::forget(&store, &waiting)?;
+        store.clean(&current, &waiting, &names)?
     };
     let removed = |leftover: &Leftover| !leftover.in_use && !arguments.dry_run;
     let entry = |leftover: &Leftover| {

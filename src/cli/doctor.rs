@@ -108,7 +108,7 @@ fn mpirun() -> Finding {
 }
 
 fn slurm() -> Finding {
-    let advice = "not found, and not needed: cases run on this machine";
+    let advice = "not found; cases run on this machine, and `--on slurm` needs a machine with sbatch";
     first_line("sbatch", &["--version"]).map_or_else(|| optional("Slurm", advice), |line| found("Slurm", line))
 }
 

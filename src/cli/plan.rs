@@ -1,18 +1,26 @@
+use clap::Args;
 use serde_json::json;
 
-use super::CliError;
-use super::run::{self, Arguments as RunArguments};
+use super::run::{self, Arguments as RunArguments, On};
 use super::survey::{self, OfResults};
 use super::terminal::Terminal;
+use super::{CliError, cluster};
 use crate::executor::launch;
 use crate::store::State;
 
-/// `cgaft study plan FILE`: every case, and the command that computes it.
-pub fn plan(arguments: &OfResults) -> Result<u8, CliError> {
-    show(&RunArguments::planning(
-        arguments.common.clone(),
-        arguments.place.clone(),
-    ))
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub of: OfResults,
+    /// Where the cases would be computed
+    #[arg(long, value_enum, default_value = "local")]
+    pub on: On,
+}
+
+/// `cgaft study plan FILE`: every case, and the command or the script that computes it.
+pub fn plan(arguments: &Arguments) -> Result<u8, CliError> {
+    let OfResults { common, place } = arguments.of.clone();
+    show(&RunArguments::planning(common, place, arguments.on))
 }
 
 /// What `run` would do with these arguments; changes nothing.
@@ -36,29 +44,49 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
         let folder = survey.store.partial_folder(&entry.id);
         let command = launch::launch(&solver, &folder, threads.unwrap_or(share.threads)).to_string();
         let runs = arguments.fresh || !matches!(entry.state, State::Done(_));
-        let doing = if runs { "run" } else { "skip" };
+        let waits = arguments.on == On::Slurm && entry.is_on_slurm();
+        let doing = match (runs, waits) {
+            (true, true) => "wait",
+            (true, false) => "run",
+            (false, _) => "skip",
+        };
         let reason = if runs && matches!(entry.state, State::Done(_)) {
             run::FRESH
         } else {
             &entry.reason
         };
         words.push_str(&format!("{}: {doing} ({reason})\n", entry.planned.name));
-        if runs {
+        if runs && arguments.on == On::Local {
             words.push_str(&format!("    {command}\n"));
         }
         let mut case = entry.to_json();
-        case["runs"] = json!(runs);
+        case["runs"] = json!(runs && !waits);
         case["reason"] = json!(reason);
         case["command"] = json!(command);
         cases.push(case);
     }
-    words.push_str(&format!("\n{}\n", run::summary(prepared.jobs.len(), share)));
-    if !prepared.jobs.is_empty() {
-        words.push_str(
-            "`study run` writes each case.yaml before it starts the command, and holds its standard input.\n",
-        );
+    let mut json = json!({ "study": survey.plan.study, "cases": cases });
+    let number = prepared.jobs.len();
+    match arguments.on {
+        On::Local => {
+            json["jobs"] = json!(share.jobs);
+            json["threads"] = json!(share.threads);
+            words.push_str(&format!("\n{}\n", run::summary(number, share)));
+            if number > 0 {
+                words.push_str(
+                    "`study run` writes each case.yaml before it starts the command, and holds its standard input.\n",
+                );
+            }
+        }
+        On::Slurm => {
+            let setting = cluster::setting(&survey, arguments)?;
+            let scripts = cluster::scripts_of(&survey, &prepared, &setting);
+            let texts: Vec<String> = scripts.iter().map(ToString::to_string).collect();
+            words.push_str(&format!("\n{}\n", cluster::summary(&survey, &prepared)));
+            texts.iter().for_each(|text| words.push_str(&format!("\n{text}")));
+            json["scripts"] = json!(texts);
+        }
     }
-    let json = json!({ "study": survey.plan.study, "jobs": share.jobs, "threads": share.threads, "cases": cases });
     Terminal {
         quiet: false,
         json: arguments.common.json,

@@ -14,7 +14,7 @@ use std::io::{IsTerminal, stderr};
 use super::format;
 use super::terminal::Terminal;
 use crate::executor::{Ending, Job, Progress, Watcher};
-use crate::store::{Failure, Store};
+use crate::store::{Failure, Reached, Store};
 
 /// The way of showing progress that fits where the output goes.
 pub fn watcher(terminal: Terminal, store: &Store) -> Box<dyn Watcher> {
@@ -38,6 +38,11 @@ fn progress_words(progress: &Progress, pace: &Pace) -> String {
 const STOPPING: &str = "stopping: the cases write their checkpoints (Ctrl-C again ends them at once)";
 const WAITING: &str = "another process computes it; waiting for it";
 
+/// `step 1200 of 20000`
+fn reached_words(reached: &Reached) -> String {
+    format!("step {} of {}", reached.step, reached.of)
+}
+
 /// How a case ended, in one line.
 fn ending_words(job: &Job, ending: &Ending) -> String {
     let name = &job.name;
@@ -56,6 +61,7 @@ fn ending_words(job: &Job, ending: &Ending) -> String {
             format!("{name}: interrupted{at}")
         }
         Ending::NotStarted => format!("{name}: not started"),
+        Ending::HandedOver(id) => format!("{name}: handed over as Slurm job {id}"),
     }
 }
 

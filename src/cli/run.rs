@@ -2,15 +2,16 @@ use std::path::Path;
 use std::thread;
 
 use clap::{Args, ValueEnum};
+use jiff::Timestamp;
 use serde_json::{Value, json};
 
 use super::estimate::estimates;
 use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
-use super::{CliError, format, plan, report};
+use super::{CliError, cluster, format, plan, report};
 use crate::executor::share::{Share, share};
-use crate::executor::{self, Ending, Job, Settings, Stop, exit, launch};
+use crate::executor::{self, Ending, Job, Settings, Stop, exit, launch, slurm};
 use crate::plan as planning;
 use crate::setup::Estimate;
 use crate::store::State;
@@ -24,18 +25,21 @@ pub struct Arguments {
     /// Run this case only; may be given several times
     #[arg(long, value_name = "CASE")]
     pub only: Vec<String>,
-    /// Cases at once [default: what ends first without more threads than cores]
+    /// Cases at once [default: what ends first without more threads than cores; on Slurm, as many as it starts]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
     /// MPI ranks a case; more than 1 is not in this version
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub ranks: Option<u32>,
-    /// Threads a case [default: the cores of this machine, shared between the jobs]
+    /// Threads a case [default: the cores of this machine, shared between the jobs; on Slurm, what the study says, else 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub threads: Option<u32>,
-    /// Where the cases are computed; only local in this version
+    /// Where the cases are computed
     #[arg(long, value_enum, default_value = "local")]
     pub on: On,
+    /// Hand the cases to Slurm and do not wait for them; the same command without this waits and builds the report
+    #[arg(long)]
+    pub detach: bool,
     /// Tell what would run and why, and change nothing
     #[arg(long)]
     pub dry_run: bool,
@@ -49,7 +53,9 @@ pub struct Arguments {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum On {
+    /// On this machine
     Local,
+    /// As jobs of Slurm
     Slurm,
 }
 
@@ -71,12 +77,12 @@ pub fn run(arguments: &Arguments) -> Result<u8, CliError> {
     let prepared = prepare(&survey, &chosen, arguments)?;
     let stop = Stop::on_signals().map_err(|error| CliError::Environment(format!("cannot catch Ctrl-C: {error}")))?;
     tell_plan(&survey, &chosen, &prepared, arguments, terminal);
-    let endings = compute(&survey, &prepared, &stop, terminal)?;
+    let endings = compute(&survey, &prepared, arguments, &stop, terminal)?;
     let reasons: Vec<String> = survey.entries.iter().map(|entry| entry.reason.clone()).collect();
     survey.refresh();
     link(&survey)?;
     let code = exit_code(&endings, stop.requested());
-    let report = if code == exit::INTERRUPTED {
+    let report = if code == exit::INTERRUPTED || arguments.detach {
         None
     } else {
         Some(report::bring_up_to_date(&survey)?)
@@ -88,15 +94,14 @@ pub fn run(arguments: &Arguments) -> Result<u8, CliError> {
     let json = json!({
         "study": survey.plan.study, "results": survey.store.root(), "report": report, "cases": results,
     });
-    terminal.result(&json, || conclusion(&endings, report.as_deref()))?;
+    terminal.result(&json, || conclusion(&endings, report.as_deref(), code))?;
     Ok(code)
 }
 
 fn refuse_what_is_not_here(arguments: &Arguments) -> Result<(), CliError> {
-    if arguments.on == On::Slurm {
-        let advice = "running on Slurm is not in this version; leave out `--on slurm`, or start `cgaft study run` \
-                      inside a job of yours";
-        return Err(CliError::Environment(advice.to_owned()));
+    if arguments.detach && arguments.on == On::Local {
+        let advice = "only Slurm goes on by itself; add `--on slurm`, or leave out `--detach`";
+        return Err(CliError::Input(advice.to_owned()));
     }
     if arguments.ranks.is_some_and(|ranks| ranks > 1) {
         let advice = "MPI ranks are not in this version; use `--threads N` instead";
@@ -131,6 +136,7 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         }
     }
     let estimates = estimates(&survey.plan, wanted.iter().map(|entry| &entry.planned))?;
+    let now = Timestamp::now();
     let job = |(entry, estimate): (&Entry, &Estimate)| Job {
         name: entry.planned.name.clone(),
         id: entry.id.clone(),
@@ -138,7 +144,7 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         case: planning::spelled(&entry.planned.case),
         seconds: estimate.seconds,
         threads: arguments.threads.or(entry.planned.case.execution.threads),
-        fresh: arguments.fresh,
+        fresh: arguments.fresh.then_some(now),
     };
     let jobs: Vec<Job> = wanted.into_iter().zip(&estimates).map(job).collect();
     let cores = thread::available_parallelism().map_or(1, usize::from);
@@ -170,6 +176,9 @@ fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: 
             State::Done(_) if arguments.fresh => format!("{}: runs ({FRESH})", planned.name),
             State::Done(_) => format!("{}: done (unchanged)", planned.name),
             State::Running(_) => format!("{}: {reason}", planned.name),
+            _ if arguments.on == On::Slurm && survey.entries[position].is_on_slurm() => {
+                format!("{}: {reason}", planned.name)
+            }
             _ => format!("{}: runs ({reason})", planned.name),
         });
         if planned.case.execution.ranks > 1 {
@@ -181,23 +190,43 @@ fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: 
         }
     }
     if !prepared.jobs.is_empty() {
-        terminal.say(&summary(prepared.jobs.len(), prepared.share));
+        terminal.say(&match arguments.on {
+            On::Local => summary(prepared.jobs.len(), prepared.share),
+            On::Slurm => cluster::summary(survey, prepared),
+        });
     }
 }
 
-fn compute(survey: &Survey, prepared: &Prepared, stop: &Stop, terminal: Terminal) -> Result<Vec<Ending>, CliError> {
+fn compute(
+    survey: &Survey,
+    prepared: &Prepared,
+    arguments: &Arguments,
+    stop: &Stop,
+    terminal: Terminal,
+) -> Result<Vec<Ending>, CliError> {
     if prepared.jobs.is_empty() {
         survey.store.prepare()?;
         return Ok(Vec::new());
     }
-    let settings = Settings {
-        solver: launch::find_solver()?,
-        share: prepared.share,
-    };
+    let solver = launch::find_solver()?;
     survey.store.prepare()?;
-    let mut watcher = progress::watcher(terminal, &survey.store);
-    let work = || executor::run(&survey.store, &prepared.jobs, &settings, stop, watcher.as_mut());
-    Ok(stop.with_care(work)?)
+    let (store, jobs) = (&survey.store, &prepared.jobs);
+    let mut watcher = progress::watcher(terminal, store);
+    let watcher = watcher.as_mut();
+    Ok(match arguments.on {
+        On::Local => {
+            let share = prepared.share;
+            stop.with_care(|| executor::run(store, jobs, &Settings { solver, share }, stop, watcher))?
+        }
+        On::Slurm => {
+            let settings = slurm::Settings {
+                study: survey.plan.study.clone(),
+                setting: cluster::setting(survey, arguments)?,
+                detach: arguments.detach,
+            };
+            stop.with_care(|| slurm::run(store, jobs, &settings, stop, watcher))?
+        }
+    })
 }
 
 /// Two names of one case share its run; a renamed case finds the run it had.
@@ -210,9 +239,15 @@ fn link(survey: &Survey) -> Result<(), CliError> {
     Ok(())
 }
 
-fn conclusion(endings: &[Ending], report: Option<&Path>) -> String {
+fn conclusion(endings: &[Ending], report: Option<&Path>, code: u8) -> String {
     let Some(report) = report else {
-        return "stopped; the same command goes on from the last checkpoints\n".to_owned();
+        return if code == exit::INTERRUPTED {
+            "stopped; the same command goes on from the last checkpoints\n".to_owned()
+        } else {
+            "Slurm has them; `cgaft study status` tells how far they are, and the same command without --detach waits \
+             and builds the report\n"
+                .to_owned()
+        };
     };
     let failed = endings
         .iter()
@@ -245,9 +280,12 @@ fn result(entry: &Entry, reason: &str, prepared: &Prepared) -> Value {
 }
 
 fn exit_code(endings: &[Ending], stopped: bool) -> u8 {
-    let all_done = endings
-        .iter()
-        .all(|ending| matches!(ending, Ending::Done(_) | Ending::DoneElsewhere(_)));
+    let all_done = endings.iter().all(|ending| {
+        matches!(
+            ending,
+            Ending::Done(_) | Ending::DoneElsewhere(_) | Ending::HandedOver(_)
+        )
+    });
     match (all_done, stopped) {
         (true, _) => 0,
         (false, true) => exit::INTERRUPTED,
@@ -257,7 +295,7 @@ fn exit_code(endings: &[Ending], stopped: bool) -> u8 {
 
 impl Arguments {
     /// A plain run, for showing what it would do.
-    pub fn planning(common: Common, place: Place) -> Arguments {
+    pub fn planning(common: Common, place: Place, on: On) -> Arguments {
         Arguments {
             common,
             place,
@@ -265,7 +303,8 @@ impl Arguments {
             jobs: None,
             ranks: None,
             threads: None,
-            on: On::Local,
+            on,
+            detach: false,
             dry_run: true,
             fresh: false,
             quiet: false,

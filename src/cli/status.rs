@@ -25,7 +25,7 @@ fn words(survey: &Survey) -> String {
         .map(|entry| {
             vec![
                 entry.planned.name.clone(),
-                entry.state.word().to_owned(),
+                entry.word().to_owned(),
                 detail(survey, entry),
             ]
         })

@@ -6,6 +6,7 @@ use clap::Args;
 
 use super::CliError;
 use crate::executor::queue::starts_over;
+use crate::executor::slurm::{self, Sighting, Whereabouts};
 use crate::plan::{self, Plan, PlannedCase};
 use crate::record::CHECKPOINT_FILE;
 use crate::store::{Attempt, Reached, State, Store};
@@ -56,6 +57,8 @@ pub struct Entry {
     pub state: State,
     /// Why it would run, or why not.
     pub reason: String,
+    /// Its job, where Slurm was given it and it is not done.
+    pub job: Option<Whereabouts>,
 }
 
 /// Reads and plans a study.
@@ -91,27 +94,80 @@ pub fn named<'a>(plan: &'a Plan, wanted: &str) -> Result<&'a PlannedCase, CliErr
 pub fn survey(file: &str, results: &Path) -> Result<Survey, CliError> {
     let plan = read(file)?;
     let store = Store::open(results, &plan.study)?;
-    let entries = plan.cases.iter().map(|planned| entry(&store, planned)).collect();
+    let entries = entries(&store, &plan);
     Ok(Survey { plan, store, entries })
 }
 
 impl Survey {
+    /// Whether this case waits or runs as a job.
+    pub fn is_on_slurm(&self, id: &str) -> bool {
+        self.entries.iter().any(|entry| entry.id == id && entry.is_on_slurm())
+    }
+
     /// Looks again, after something has run.
     pub fn refresh(&mut self) {
-        self.entries = self
-            .plan
-            .cases
-            .iter()
-            .map(|planned| entry(&self.store, planned))
-            .collect();
+        self.entries = entries(&self.store, &self.plan);
     }
 }
 
 impl Entry {
     pub fn to_json(&self) -> serde_json::Value {
-        serde_json::json!({
-            "case": self.planned.name, "id": self.id, "state": self.state.word(), "reason": self.reason,
-        })
+        let mut entry = serde_json::json!({
+            "case": self.planned.name, "id": self.id, "state": self.word(), "reason": self.reason,
+        });
+        if let Some(job) = &self.job {
+            entry["slurm_job"] = serde_json::json!(job.slurm_id);
+        }
+        entry
+    }
+
+    /// One word for what there is of it, or where it is.
+    pub fn word(&self) -> &'static str {
+        match self.job.as_ref().map(|job| &job.sighting) {
+            Some(Ok(Some(Sighting::Queued { .. }))) => "queued",
+            Some(Ok(Some(Sighting::Running))) => "running",
+            _ => self.state.word(),
+        }
+    }
+
+    /// It waits or runs as a job.
+    pub fn is_on_slurm(&self) -> bool {
+        self.job.as_ref().is_some_and(Whereabouts::is_live)
+    }
+}
+
+fn entries(store: &Store, plan: &Plan) -> Vec<Entry> {
+    let mut entries: Vec<Entry> = plan.cases.iter().map(|planned| entry(store, planned)).collect();
+    let open = entries.iter().filter(|entry| !matches!(entry.state, State::Done(_)));
+    let mut jobs = slurm::whereabouts(store, &plan.study, open.map(|entry| entry.id.as_str()));
+    for entry in &mut entries {
+        if let Some(job) = jobs.remove(&entry.id) {
+            entry.reason = with_job(&entry.state, &entry.reason, &job);
+            entry.job = Some(job);
+        }
+    }
+    entries
+}
+
+/// The reason of a case, with what Slurm says of its job.
+fn with_job(state: &State, reason: &str, job: &Whereabouts) -> String {
+    let id = &job.slurm_id;
+    match (&job.sighting, state) {
+        (Ok(Some(Sighting::Queued { why })), State::Partial(attempt)) => {
+            format!("queued as Slurm job {id} ({why}), goes on{}", at_step(attempt))
+        }
+        (Ok(Some(Sighting::Queued { why })), _) => format!("queued as Slurm job {id} ({why})"),
+        (Ok(Some(Sighting::Running)), State::Running(attempt) | State::Partial(attempt)) => {
+            format!("running as Slurm job {id}{}", at_step(attempt))
+        }
+        (Ok(Some(Sighting::Running)), _) => format!("running as Slurm job {id}"),
+        (Err(why), _) => format!("{reason}; submitted as Slurm job {id}, of which nothing can be learned: {why}"),
+        (Ok(Some(Sighting::Ended(_))), State::Missing | State::Partial(_)) | (Ok(None), State::Missing) => {
+            format!("{reason}; {}", job.fact())
+        }
+        (_, State::Failed(failure)) if failure.ended >= job.submitted => format!("{reason} (Slurm job {id})"),
+        // The job is of long ago, and somebody else has worked on the case since.
+        _ => reason.to_owned(),
     }
 }
 
@@ -124,6 +180,7 @@ fn entry(store: &Store, planned: &PlannedCase) -> Entry {
         id,
         state,
         reason,
+        job: None,
     }
 }
 

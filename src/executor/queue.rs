@@ -7,6 +7,7 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
+use serde::{Deserialize, Serialize};
 
 use super::local::{self, Event, Running};
 use super::share::Share;
@@ -14,7 +15,7 @@ use super::{ExecutorError, Progress, Stop, exit, launch};
 use crate::store::{Attempt, Claim, Failure, Manifest, Program, Reached, State, Store};
 
 /// A case to compute.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub struct Job {
     pub name: String,
     /// Identity of the case: names its run.
@@ -27,8 +28,8 @@ pub struct Job {
     pub seconds: f64,
     /// Where the study itself says how many threads; else all jobs have the same.
     pub threads: Option<u32>,
-    /// Compute it even if it is done, and from the start.
-    pub fresh: bool,
+    /// Since when it is wanted afresh: what was begun before counts for nothing. `None`: whatever there is serves.
+    pub fresh: Option<Timestamp>,
 }
 
 #[derive(Clone, Debug)]
@@ -48,12 +49,20 @@ pub enum Ending {
     Interrupted(Option<Attempt>),
     /// The request to stop came before its turn.
     NotStarted,
+    /// It waits or runs as this job of a scheduler, and nobody waits for it here.
+    HandedOver(String),
 }
 
 /// Is told what happens.
 pub trait Watcher {
+    /// A scheduler has taken it, under this id.
+    fn submitted(&mut self, job: &Job, id: &str);
+    /// It waits in the queue of a scheduler, which says why.
+    fn queued(&mut self, job: &Job, why: &str);
     fn started(&mut self, job: &Job);
     fn progress(&mut self, job: &Job, progress: &Progress);
+    /// How far a case is that runs elsewhere.
+    fn reached(&mut self, job: &Job, reached: &Reached);
     /// Another process works on it.
     fn waiting(&mut self, job: &Job);
     fn stopping(&mut self);
@@ -109,7 +118,6 @@ struct Queue<'a> {
     endings: Vec<Ending>,
     /// Those of which the watcher knows that another process has them.
     told_busy: Vec<bool>,
-    began: Timestamp,
     speak: Sender<Event>,
     listen: Receiver<Event>,
 }
@@ -138,7 +146,6 @@ impl<'a> Queue<'a> {
             running: Vec::new(),
             endings: vec![Ending::NotStarted; jobs.len()],
             told_busy: vec![false; jobs.len()],
-            began: Timestamp::now(),
             speak,
             listen,
         }
@@ -164,11 +171,16 @@ impl<'a> Queue<'a> {
         let job = &self.jobs[number];
         let state = claim.state();
         match state {
-            State::Done(manifest) if !job.fresh || manifest.ended >= self.began => {
+            State::Done(manifest) if job.fresh.is_none_or(|since| manifest.ended >= since) => {
                 self.end(number, Ending::DoneElsewhere(manifest));
                 return Ok(());
             }
-            _ => claim.begin(&job.case_text, job.fresh || starts_over(&state))?,
+            _ => {
+                let over = job
+                    .fresh
+                    .map_or_else(|| starts_over(&state), |since| claim.began_before(since));
+                claim.begin(&job.case_text, over)?;
+            }
         }
         let folder = claim.folder();
         let threads = job.threads.unwrap_or(self.settings.share.threads);
@@ -240,7 +252,7 @@ impl<'a> Queue<'a> {
         } else {
             exit::meaning(status)
         };
-        let tail = log_tail(&work.claim.folder());
+        let tail = tail_of(&work.claim.folder().join("log.txt"));
         Ok(Ending::Failed(Box::new(work.claim.fail(
             status.code(),
             meaning,
@@ -289,9 +301,9 @@ fn open_log(folder: &Path, command: &launch::Launch) -> Result<File, ExecutorErr
     })
 }
 
-/// The last lines of a log, of which only the end is read.
-fn log_tail(folder: &Path) -> Vec<String> {
-    let bytes = fs::read(folder.join("log.txt")).unwrap_or_default();
+/// The last lines of a log, of which only the end is shown.
+pub fn tail_of(log: &Path) -> Vec<String> {
+    let bytes = fs::read(log).unwrap_or_default();
     let end = &bytes[bytes.len().saturating_sub(1 << 16)..];
     let text = String::from_utf8_lossy(end);
     let lines: Vec<&str> = text.lines().collect();

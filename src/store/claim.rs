@@ -65,6 +65,11 @@ impl Claim {
         self.store.state_on_disk(&self.id)
     }
 
+    /// Whether there was an attempt before this time.
+    pub fn began_before(&self, time: Timestamp) -> bool {
+        self.attempt.attempts > 0 && self.attempt.started < time
+    }
+
     pub fn folder(&self) -> PathBuf {
         self.store.partial_folder(&self.id)
     }

@@ -20,7 +20,12 @@ pub struct Leftover {
 
 impl Store {
     /// Runs that were never published, and published runs that are not in `current`. Changes nothing.
-    pub fn leftovers(&self, current: &BTreeSet<String>) -> Result<Vec<Leftover>, StoreError> {
+    /// Those in `waiting` are in use: a job in a queue goes on with them.
+    pub fn leftovers(
+        &self,
+        current: &BTreeSet<String>,
+        waiting: &BTreeSet<String>,
+    ) -> Result<Vec<Leftover>, StoreError> {
         let mut found = Vec::new();
         for name in entries(&self.root.join("runs"))? {
             let (id, what) = match name.split_once('.') {
@@ -34,7 +39,9 @@ impl Store {
             found.push(Leftover {
                 what,
                 bytes: size(&path),
-                in_use: files::is_locked(&self.lock_path(id)) || files::is_locked(&path.join(SOLVER_LOCK)),
+                in_use: waiting.contains(id)
+                    || files::is_locked(&self.lock_path(id))
+                    || files::is_locked(&path.join(SOLVER_LOCK)),
                 id: id.to_owned(),
                 path,
             });
@@ -43,11 +50,17 @@ impl Store {
     }
 
     /// Removes the leftovers that nobody works on, what points at them, and what a killed process was just writing.
-    pub fn clean(&self, current: &BTreeSet<String>, cases: &BTreeSet<String>) -> Result<Vec<Leftover>, StoreError> {
-        let mut leftovers = self.leftovers(current)?;
+    pub fn clean(
+        &self,
+        current: &BTreeSet<String>,
+        waiting: &BTreeSet<String>,
+        cases: &BTreeSet<String>,
+    ) -> Result<Vec<Leftover>, StoreError> {
+        let mut leftovers = self.leftovers(current, waiting)?;
         for leftover in &mut leftovers {
             let lock = files::try_lock(&self.lock_path(&leftover.id))?;
-            leftover.in_use = lock.is_none() || files::is_locked(&leftover.path.join(SOLVER_LOCK));
+            leftover.in_use =
+                waiting.contains(&leftover.id) || lock.is_none() || files::is_locked(&leftover.path.join(SOLVER_LOCK));
             if !leftover.in_use {
                 files::remove(&leftover.path)?;
             }

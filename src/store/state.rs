@@ -45,6 +45,15 @@ impl Store {
         }
     }
 
+    /// Opens the folders of a run anew: on a network that shows what another machine has written, where it otherwise
+    /// may not be seen for a minute.
+    pub fn look_anew(&self, id: &str) {
+        for folder in [self.root.join("runs"), self.partial_folder(id), self.run_folder(id)] {
+            // What is not there has nothing new to show.
+            let _ = fs::read_dir(folder).map(Iterator::count);
+        }
+    }
+
     /// State of a run for the one who holds its lock.
     pub(super) fn state_on_disk(&self, id: &str) -> State {
         let partial = self.partial_folder(id);
@@ -83,7 +92,8 @@ impl Store {
         Ok(manifest)
     }
 
-    pub(super) fn attempt(&self, id: &str) -> Option<Attempt> {
+    /// How far an unpublished run is; `None` where nothing was begun.
+    pub fn attempt(&self, id: &str) -> Option<Attempt> {
         files::read_json(&self.partial_folder(id).join("attempt.json")).ok()
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! The doc comments below are what an editor shows through the JSON Schema.
 
+mod cluster;
 mod material;
 
 use super::{
@@ -13,6 +14,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 pub use super::quantity::Interval;
+pub use cluster::ClusterFile;
 pub use material::*;
 
 /// A study: a question, cases that answer it, and what to show.
@@ -37,6 +39,7 @@ pub struct StudyFile {
     /// `reference_ps` as in `wave_arrival`. Lines that begin with `#` are comments.
     pub compare: Given<Named<String>>,
     pub report: Given<Report>,
+    pub cluster: Given<ClusterFile>,
 }
 
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]

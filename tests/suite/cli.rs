@@ -5,6 +5,7 @@ mod interrupt;
 mod messages;
 mod repeat;
 mod single;
+mod slurm;
 
 use std::fs;
 use std::path::{Path, PathBuf};

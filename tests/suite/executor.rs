@@ -5,7 +5,8 @@ use std::time::{Duration, Instant};
 
 use cgaft::executor::share::Share;
 use cgaft::executor::{self, Ending, Job, Progress, Settings, Stop, Watcher};
-use cgaft::store::{State, Store};
+use cgaft::store::{Reached, State, Store};
+use jiff::Timestamp;
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -27,7 +28,7 @@ fn job(name: &str, behaviour: &str) -> Job {
         case: json!({ "name": name }),
         seconds: 1.0,
         threads: None,
-        fresh: false,
+        fresh: None,
     }
 }
 
@@ -51,6 +52,18 @@ struct Notes {
 }
 
 impl Watcher for Notes {
+    fn submitted(&mut self, job: &Job, id: &str) {
+        self.events.push(format!("{} submitted as {id}", job.name));
+    }
+
+    fn queued(&mut self, job: &Job, why: &str) {
+        self.events.push(format!("{} queued ({why})", job.name));
+    }
+
+    fn reached(&mut self, job: &Job, reached: &Reached) {
+        self.events.push(format!("{} at step {}", job.name, reached.step));
+    }
+
     fn started(&mut self, job: &Job) {
         self.events.push(format!("{} started", job.name));
     }
@@ -82,6 +95,7 @@ fn word(ending: &Ending) -> &'static str {
         Ending::Failed(_) => "failed",
         Ending::Interrupted(_) => "interrupted",
         Ending::NotStarted => "not started",
+        Ending::HandedOver(_) => "handed over",
     }
 }
 
@@ -221,7 +235,7 @@ fn a_failed_case_is_tried_again_and_a_done_one_is_not() {
     let (endings, _) = run(
         &store,
         &[Job {
-            fresh: true,
+            fresh: Some(Timestamp::now()),
             ..repaired
         }],
         1,

@@ -1,6 +1,7 @@
 #!/bin/sh
 # Stands in for cgaft-solve: takes its arguments, speaks its progress, leaves its files, computes nothing.
 # A case whose file holds `fake: fail` (or the text in FAKE_FAIL) fails; `fake: slow` (FAKE_SLOW) waits to be stopped;
+# `fake: long` (FAKE_LONG) does so only until it has a checkpoint;
 # `fake: stubborn` (FAKE_STUBBORN) does not listen; `fake: pause` (FAKE_PAUSE) takes a moment; `fake: empty` leaves no result.
 case_file=$1
 shift
@@ -26,6 +27,11 @@ fi
 echo "a word that is no progress"
 if holds "${FAKE_SLOW:-fake: slow}"; then
     [ -e "$into/checkpoint.h5" ] && echo "resumed" >&2
+    cat >/dev/null
+    echo "checkpoint" >"$into/checkpoint.h5"
+    exit 130
+fi
+if holds "${FAKE_LONG:-fake: long}" && [ ! -e "$into/checkpoint.h5" ]; then
     cat >/dev/null
     echo "checkpoint" >"$into/checkpoint.h5"
     exit 130

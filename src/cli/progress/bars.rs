@@ -3,10 +3,10 @@ use std::time::Duration;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words};
+use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words};
 use crate::cli::terminal::{Terminal, warn};
 use crate::executor::{Ending, Job, Progress, Watcher};
-use crate::store::Store;
+use crate::store::{Reached, Store};
 
 /// A bar a case.
 pub struct Bars {
@@ -45,6 +45,14 @@ impl Bars {
 }
 
 impl Watcher for Bars {
+    fn submitted(&mut self, job: &Job, id: &str) {
+        self.bar(job).0.set_message(format!("Slurm job {id}"));
+    }
+
+    fn queued(&mut self, job: &Job, why: &str) {
+        self.bar(job).0.set_message(format!("queued ({why})"));
+    }
+
     fn started(&mut self, job: &Job) {
         self.bar(job).0.set_message("starting");
     }
@@ -54,6 +62,12 @@ impl Watcher for Bars {
         let pace = pace.get_or_insert_with(|| Pace::starting_at(progress.percent));
         bar.set_position(progress.percent as u64);
         bar.set_message(progress_words(progress, pace));
+    }
+
+    fn reached(&mut self, job: &Job, reached: &Reached) {
+        let (bar, _) = self.bar(job);
+        bar.set_position(reached.percent as u64);
+        bar.set_message(reached_words(reached));
     }
 
     fn waiting(&mut self, job: &Job) {

@@ -1,10 +1,10 @@
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words};
+use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words};
 use crate::cli::terminal::{Terminal, warn};
 use crate::executor::{Ending, Job, Progress, Watcher};
-use crate::store::Store;
+use crate::store::{Reached, Store};
 
 /// Time between two lines of one case.
 const LINE_EVERY: Duration = Duration::from_secs(5);
@@ -27,20 +27,37 @@ impl Lines {
     }
 }
 
+impl Lines {
+    fn now_and_then(&mut self, job: &Job, percent: f64, words: impl FnOnce(&Pace) -> String) {
+        let begin = || (Pace::starting_at(percent), Instant::now());
+        let (pace, said) = self.cases.entry(job.id.clone()).or_insert_with(begin);
+        if said.elapsed() >= LINE_EVERY {
+            *said = Instant::now();
+            let words = words(pace);
+            self.terminal.say(&format!("{}: {percent:.0} %  {words}", job.name));
+        }
+    }
+}
+
 impl Watcher for Lines {
+    fn submitted(&mut self, job: &Job, id: &str) {
+        self.terminal.say(&format!("{}: submitted as Slurm job {id}", job.name));
+    }
+
+    fn queued(&mut self, job: &Job, why: &str) {
+        self.terminal.say(&format!("{}: queued ({why})", job.name));
+    }
+
     fn started(&mut self, job: &Job) {
         self.terminal.say(&format!("{}: started", job.name));
     }
 
     fn progress(&mut self, job: &Job, progress: &Progress) {
-        let begin = || (Pace::starting_at(progress.percent), Instant::now());
-        let (pace, said) = self.cases.entry(job.id.clone()).or_insert_with(begin);
-        if said.elapsed() >= LINE_EVERY {
-            *said = Instant::now();
-            let words = progress_words(progress, pace);
-            self.terminal
-                .say(&format!("{}: {:.0} %  {words}", job.name, progress.percent));
-        }
+        self.now_and_then(job, progress.percent, |pace| progress_words(progress, pace));
+    }
+
+    fn reached(&mut self, job: &Job, reached: &Reached) {
+        self.now_and_then(job, reached.percent, |_| reached_words(reached));
     }
 
     fn waiting(&mut self, job: &Job) {

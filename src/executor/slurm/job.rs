@@ -1,0 +1,90 @@
+//! Inside a job: one case on one node, as `study run` computes it, and back into the queue when time is up.
+
+use std::env;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread;
+
+use signal_hook::consts::SIGUSR1;
+use signal_hook::iterator::Signals;
+
+use super::{Ticket, commands};
+use crate::executor::queue::{self, Settings};
+use crate::executor::share::Share;
+use crate::executor::{Ending, ExecutorError, Stop, Watcher, launch};
+use crate::store::{Attempt, Store};
+
+/// Counts as a request to stop from now on: Slurm sends it when the time of the job is nearly up.
+#[derive(Clone, Debug, Default)]
+pub struct TimeUp(Arc<AtomicBool>);
+
+impl TimeUp {
+    pub fn on_signal(stop: &Stop) -> std::io::Result<TimeUp> {
+        let up = TimeUp::default();
+        let (flag, stop) = (up.clone(), stop.clone());
+        let mut signals = Signals::new([SIGUSR1])?;
+        thread::spawn(move || {
+            for _ in signals.forever() {
+                // Several warnings are no order to give up the checkpoint.
+                if !flag.0.swap(true, Ordering::SeqCst) {
+                    stop.request();
+                }
+            }
+        });
+        Ok(up)
+    }
+}
+
+/// Computes the case of a ticket; `None` where there is no such ticket.
+///
+/// A case that was stopped because its time was up is put back into the queue. One that has not come a single step
+/// further would do so for ever: it fails.
+pub fn carry_out(
+    store: &Store,
+    id: &str,
+    stop: &Stop,
+    time_up: &TimeUp,
+    watcher: &mut dyn Watcher,
+) -> Result<Option<Ending>, ExecutorError> {
+    let Some(ticket) = Ticket::read(store, id) else {
+        return Ok(None);
+    };
+    let counts = |attempt: &Attempt| ticket.job.fresh.is_none_or(|since| attempt.started >= since);
+    let began_at = steps(store.attempt(id).filter(counts).as_ref());
+    let settings = Settings {
+        solver: launch::find_solver()?,
+        share: Share {
+            jobs: 1,
+            threads: ticket.threads,
+        },
+    };
+    let mut endings = queue::run(store, std::slice::from_ref(&ticket.job), &settings, stop, watcher)?;
+    let ending = endings.pop();
+    let slurm_id = own_id().filter(|_| time_up.0.load(Ordering::SeqCst));
+    let (Some(Ending::Interrupted(attempt)), Some(slurm_id)) = (&ending, slurm_id) else {
+        return Ok(ending);
+    };
+    let why = if steps(attempt.as_ref()) > began_at {
+        match commands::requeue(&slurm_id) {
+            Ok(()) => return Ok(ending),
+            Err(error) => format!("it is out of time and has a checkpoint, but cannot go back into the queue: {error}"),
+        }
+    } else {
+        super::ending::meaning(&slurm_id, Some("TIMEOUT"))
+    };
+    let Some(claim) = store.claim(id)? else {
+        return Ok(ending);
+    };
+    Ok(Some(Ending::Failed(Box::new(claim.fail(None, why, Vec::new())?))))
+}
+
+fn steps(attempt: Option<&Attempt>) -> u64 {
+    let reached = attempt.and_then(|attempt| attempt.reached);
+    reached.map_or(0, |reached| reached.step)
+}
+
+/// As Slurm names this task of an array.
+fn own_id() -> Option<String> {
+    let [array, task] = ["SLURM_ARRAY_JOB_ID", "SLURM_ARRAY_TASK_ID"].map(env::var);
+    Some(format!("{}_{}", array.ok()?, task.ok()?))
+}

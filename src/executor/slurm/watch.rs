@@ -1,0 +1,315 @@
+//! Hands cases over and watches them until the last has ended, or until the one who asked has seen enough.
+
+use std::collections::HashMap;
+use std::thread;
+use std::time::{Duration, Instant};
+
+use jiff::Timestamp;
+
+use super::commands::{self, Sighting};
+use super::script::{Setting, scripts};
+use super::{Ticket, ending, job_name, ticket};
+use crate::executor::queue::{starts_over, tail_of};
+use crate::executor::{Ending, ExecutorError, Job, Stop, Watcher};
+use crate::store::{State, Store};
+
+#[derive(Clone, Debug)]
+pub struct Settings {
+    pub study: String,
+    pub setting: Setting,
+    /// Hand everything over, and do not wait for it.
+    pub detach: bool,
+}
+
+/// Sees that every job is in the queue or at work, each once, and then to its end; the endings are in the order of the
+/// jobs. Jobs that were handed over before are found again.
+pub fn run(
+    store: &Store,
+    jobs: &[Job],
+    settings: &Settings,
+    stop: &Stop,
+    watcher: &mut dyn Watcher,
+) -> Result<Vec<Ending>, ExecutorError> {
+    let mut watch = Watch::new(store, jobs, settings, watcher);
+    watch.hand_over(stop)?;
+    if settings.detach {
+        return Ok(watch.endings);
+    }
+    let mut told = false;
+    let mut pause = FIRST_PAUSE;
+    while !watch.cases.is_empty() && !stop.insisted() {
+        if stop.requested() && !told {
+            told = true;
+            watch.cancel()?;
+            pause = FIRST_PAUSE;
+        }
+        rest(pause, stop, told);
+        pause = if watch.look(stop)? {
+            FIRST_PAUSE
+        } else {
+            LONGEST_PAUSE.min(pause * 5 / 4)
+        };
+        watch.hand_over(stop)?;
+    }
+    Ok(watch.endings)
+}
+
+/// Time between two questions to Slurm: short after something has happened, so that small cases are no waste of time,
+/// and long when nothing does, so that thousands of users can ask.
+const FIRST_PAUSE: Duration = Duration::from_millis(500);
+const LONGEST_PAUSE: Duration = Duration::from_secs(20);
+/// How long a Ctrl-C may go unseen.
+const HEED: Duration = Duration::from_millis(50);
+/// Questions in a row that Slurm may leave unanswered: it is restarted now and then.
+const MOST_UNANSWERED: u32 = 8;
+/// Looks at an ended job before its result is taken for missing, in case the network is slow.
+const LOOKS_FOR_A_RESULT: u32 = 3;
+
+struct Watch<'a> {
+    store: &'a Store,
+    jobs: &'a [Job],
+    settings: &'a Settings,
+    watcher: &'a mut dyn Watcher,
+    cases: Vec<Case>,
+    endings: Vec<Ending>,
+    unanswered: u32,
+}
+
+/// A case that has not ended.
+struct Case {
+    /// Its position in the list.
+    job: usize,
+    /// Its ticket; `None` while another process has it, or before it is handed over.
+    ticket: Option<Ticket>,
+    sighting: Option<Sighting>,
+    /// Looks since it left the queue.
+    missed: u32,
+    told_busy: bool,
+}
+
+impl<'a> Watch<'a> {
+    fn new(store: &'a Store, jobs: &'a [Job], settings: &'a Settings, watcher: &'a mut dyn Watcher) -> Self {
+        let case = |job| Case {
+            job,
+            ticket: None,
+            sighting: None,
+            missed: 0,
+            told_busy: false,
+        };
+        Watch {
+            store,
+            jobs,
+            settings,
+            watcher,
+            cases: (0..jobs.len()).map(case).collect(),
+            endings: vec![Ending::NotStarted; jobs.len()],
+            unanswered: 0,
+        }
+    }
+
+    /// Submits what nobody works on and what no job of before waits for.
+    fn hand_over(&mut self, stop: &Stop) -> Result<(), ExecutorError> {
+        let without: Vec<usize> = self
+            .cases
+            .iter()
+            .filter(|case| case.ticket.is_none())
+            .map(|case| case.job)
+            .collect();
+        if without.is_empty() || stop.requested() {
+            return Ok(());
+        }
+        let _lock = self.store.lock_submission()?;
+        let seen = commands::sightings(&job_name(&self.settings.study))?;
+        let mut free = without;
+        free.retain(|&job| !self.find_again(job, &seen) && !self.is_busy(job));
+        let (store, settings) = (self.store, self.settings);
+        for script in scripts(store, &settings.study, self.jobs, &free, &settings.setting) {
+            let ticket = |&job: &usize| ticket_for(store, &self.jobs[job], script.threads);
+            let tickets: Vec<Ticket> = script.jobs.iter().map(ticket).collect();
+            // The jobs may begin before `sbatch` has ended.
+            tickets.iter().try_for_each(|ticket| ticket.write(store))?;
+            let array = commands::submit(&script.to_string())?;
+            for (task, (ticket, &job)) in tickets.into_iter().zip(&script.jobs).enumerate() {
+                let slurm_id = format!("{array}_{task}");
+                self.watcher.submitted(&self.jobs[job], &slurm_id);
+                let ticket = Ticket {
+                    slurm_id: Some(slurm_id.clone()),
+                    ..ticket
+                };
+                ticket.write(store)?;
+                self.follow(job, ticket, slurm_id);
+            }
+        }
+        Ok(())
+    }
+
+    /// Whether another process computes it, of which the watcher is told once.
+    fn is_busy(&mut self, job: usize) -> bool {
+        let busy = matches!(self.store.state(&self.jobs[job].id), State::Running(_));
+        if busy
+            && let Some(case) = self.cases.iter_mut().find(|case| case.job == job)
+            && !std::mem::replace(&mut case.told_busy, true)
+        {
+            self.watcher.waiting(&self.jobs[job]);
+        }
+        busy
+    }
+
+    /// Whether a job of before waits for this case or computes it.
+    fn find_again(&mut self, job: usize, seen: &HashMap<String, Sighting>) -> bool {
+        let Some(ticket) = Ticket::read(self.store, &self.jobs[job].id) else {
+            return false;
+        };
+        let Some(slurm_id) = ticket.slurm_id.clone() else {
+            return false;
+        };
+        let live = matches!(seen.get(&slurm_id), Some(Sighting::Queued { .. } | Sighting::Running));
+        if live {
+            self.follow(job, ticket, slurm_id);
+        }
+        live
+    }
+
+    fn follow(&mut self, job: usize, ticket: Ticket, slurm_id: String) {
+        self.endings[job] = Ending::HandedOver(slurm_id);
+        if let Some(case) = self.cases.iter_mut().find(|case| case.job == job) {
+            case.ticket = Some(ticket);
+        }
+    }
+
+    fn cancel(&mut self) -> Result<(), ExecutorError> {
+        self.watcher.stopping();
+        let ids = self
+            .cases
+            .iter()
+            .filter_map(|case| case.ticket.as_ref()?.slurm_id.as_deref());
+        Ok(commands::cancel(ids)?)
+    }
+
+    /// Asks where the jobs are; whether anything has changed.
+    fn look(&mut self, stop: &Stop) -> Result<bool, ExecutorError> {
+        let seen = match commands::sightings(&job_name(&self.settings.study)) {
+            Ok(seen) => seen,
+            Err(error) if self.unanswered >= MOST_UNANSWERED => return Err(error.into()),
+            Err(_) => {
+                self.unanswered += 1;
+                return Ok(false);
+            }
+        };
+        self.unanswered = 0;
+        let mut changed = false;
+        for position in (0..self.cases.len()).rev() {
+            let slurm_id = self.cases[position]
+                .ticket
+                .as_ref()
+                .and_then(|ticket| ticket.slurm_id.clone());
+            let sighting = slurm_id.as_ref().and_then(|id| seen.get(id)).cloned();
+            changed |= self.tell(position, sighting);
+            if let Some(ending) = self.ending(position, stop)? {
+                let case = self.cases.remove(position);
+                self.watcher.ended(&self.jobs[case.job], &ending);
+                self.endings[case.job] = ending;
+                changed = true;
+            }
+        }
+        Ok(changed)
+    }
+
+    /// Passes on what the queue and the run itself say; whether it is news.
+    fn tell(&mut self, position: usize, sighting: Option<Sighting>) -> bool {
+        let case = &mut self.cases[position];
+        let job = &self.jobs[case.job];
+        let news = case.sighting != sighting;
+        match &sighting {
+            Some(Sighting::Queued { why }) if news => self.watcher.queued(job, why),
+            Some(Sighting::Running) => {
+                if news {
+                    self.watcher.started(job);
+                }
+                if let Some(reached) = self.store.attempt(&job.id).and_then(|attempt| attempt.reached) {
+                    self.watcher.reached(job, &reached);
+                }
+            }
+            _ => {}
+        }
+        let live = matches!(sighting, Some(Sighting::Queued { .. } | Sighting::Running));
+        case.missed = if live { 0 } else { case.missed + 1 };
+        case.sighting = sighting;
+        news
+    }
+
+    /// How a case has ended; `None` if it has not, or not for certain.
+    fn ending(&self, position: usize, stop: &Stop) -> Result<Option<Ending>, ExecutorError> {
+        let case = &self.cases[position];
+        let job = &self.jobs[case.job];
+        if case.missed > 0 {
+            self.store.look_anew(&job.id);
+        }
+        let state = self.store.state(&job.id);
+        let Some(Ticket {
+            submitted,
+            slurm_id: Some(slurm_id),
+            ..
+        }) = &case.ticket
+        else {
+            let done = matches!(&state, State::Done(manifest) if job.fresh.is_none_or(|since| manifest.ended >= since));
+            return Ok(match state {
+                State::Done(manifest) if done => Some(Ending::DoneElsewhere(manifest)),
+                _ => None,
+            });
+        };
+        match state {
+            State::Done(manifest) if job.fresh.is_none_or(|since| manifest.ended >= since.min(*submitted)) => {
+                return Ok(Some(Ending::Done(manifest)));
+            }
+            State::Failed(failure) if failure.ended >= *submitted => return Ok(Some(Ending::Failed(failure))),
+            State::Running(_) => return Ok(None),
+            _ if case.missed < LOOKS_FOR_A_RESULT => return Ok(None),
+            _ => {}
+        }
+        let word = match &case.sighting {
+            Some(Sighting::Ended(word)) => Some(word.clone()),
+            _ => commands::accounted(&[slurm_id], *submitted).remove(slurm_id),
+        };
+        if stop.requested() || word.as_deref() == Some("CANCELLED") {
+            return Ok(Some(Ending::Interrupted(self.store.attempt(&job.id))));
+        }
+        self.fail(job, slurm_id, word.as_deref())
+    }
+
+    /// Writes down why a case has no result; nothing if another process works on it again.
+    fn fail(&self, job: &Job, slurm_id: &str, word: Option<&str>) -> Result<Option<Ending>, ExecutorError> {
+        let Some(mut claim) = self.store.claim(&job.id)? else {
+            return Ok(None);
+        };
+        if !claim.folder().exists() {
+            claim.begin(&job.case_text, false)?;
+        }
+        let said = tail_of(&ticket::output(self.store, slurm_id));
+        let failure = claim.fail(None, ending::meaning(slurm_id, word), said)?;
+        Ok(Some(Ending::Failed(Box::new(failure))))
+    }
+}
+
+/// A case that starts over says so with its time, so that a job that comes back to the queue does not start over again.
+fn ticket_for(store: &Store, job: &Job, threads: u32) -> Ticket {
+    let submitted = Timestamp::now();
+    let over = job.fresh.is_some() || starts_over(&store.state(&job.id));
+    Ticket {
+        job: Job {
+            fresh: over.then_some(submitted),
+            ..job.clone()
+        },
+        threads,
+        submitted,
+        slurm_id: None,
+    }
+}
+
+/// Waits, unless it is asked to stop and has not been told yet.
+fn rest(pause: Duration, stop: &Stop, told: bool) {
+    let start = Instant::now();
+    while start.elapsed() < pause && !stop.insisted() && (told || !stop.requested()) {
+        thread::sleep(HEED);
+    }
+}

@@ -1,0 +1,185 @@
+//! What jobs on a cluster get, from the study and from a profile of the user's own.
+
+use super::{
+    StudyError,
+    file::ClusterFile,
+    finding::{Finding, Findings, Place},
+    quantity::Duration,
+    reader::{Given, read as read_tree},
+    source, tree,
+};
+use std::{path::Path, sync::Arc};
+
+/// Resources of a job, and how its node is made ready.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Cluster {
+    pub partition: Option<String>,
+    pub account: Option<String>,
+    /// Longest time of one job, s.
+    pub time: Option<f64>,
+    pub threads: Option<u32>,
+    pub modules: Vec<String>,
+    /// Lines of shell.
+    pub preamble: Option<String>,
+    /// Of `sbatch`.
+    pub options: Vec<String>,
+}
+
+/// Slurm counts time in minutes, s.
+const SHORTEST: f64 = 60.0;
+
+/// What the runner itself tells `sbatch`, and must know.
+const RESERVED: [&str; 14] = [
+    "--array",
+    "--job-name",
+    "--output",
+    "--error",
+    "--open-mode",
+    "--signal",
+    "--requeue",
+    "--no-requeue",
+    "--wrap",
+    "--parsable",
+    "--wait",
+    "--ntasks",
+    "--nodes",
+    "--cpus-per-task",
+];
+
+impl Cluster {
+    /// What this one leaves open is as in `profile`.
+    pub fn over(self, profile: Cluster) -> Cluster {
+        let list = |own: Vec<String>, other: Vec<String>| if own.is_empty() { other } else { own };
+        Cluster {
+            partition: self.partition.or(profile.partition),
+            account: self.account.or(profile.account),
+            time: self.time.or(profile.time),
+            threads: self.threads.or(profile.threads),
+            modules: list(self.modules, profile.modules),
+            preamble: self.preamble.or(profile.preamble),
+            options: list(self.options, profile.options),
+        }
+    }
+}
+
+/// A profile: a file with the keys of `cluster:`; `None` where there is no such file.
+pub fn read_profile(path: &Path) -> Result<Option<Cluster>, StudyError> {
+    if !path.exists() {
+        return Ok(None);
+    }
+    let name = path.display().to_string();
+    let fail = |text: &Arc<str>, findings: Vec<Finding>| StudyError::new(&name, Arc::clone(text), findings);
+    let (text, _) = source::text(&name).map_err(|finding| fail(&"".into(), vec![finding]))?;
+    let text: Arc<str> = text.into();
+    let findings = Findings::default();
+    let root = tree::parse(&text, &findings).map_err(|finding| fail(&text, vec![finding]))?;
+    let cluster = resolve(&read_tree(&root, &findings), &findings);
+    if findings.is_empty() {
+        Ok(Some(cluster))
+    } else {
+        Err(fail(&text, findings.sorted()))
+    }
+}
+
+/// The block with its mistakes noted; what is wrong is left out.
+pub(crate) fn resolve(given: &Given<ClusterFile>, findings: &Findings) -> Cluster {
+    let Some(file) = given.right() else {
+        return Cluster::default();
+    };
+    let check = Check(findings);
+    check.only_one(&file.nodes, "nodes");
+    check.only_one(&file.ranks, "ranks");
+    Cluster {
+        partition: check.word(&file.partition, "partition"),
+        account: check.word(&file.account, "account"),
+        time: check.time(&file.time),
+        threads: check.threads(&file.threads),
+        modules: check.list(&file.modules, |check, given| check.word(given, "modules")),
+        preamble: file.preamble.right().map(|text| text.trim_end().to_owned()),
+        options: check.list(&file.options, Check::option),
+    }
+}
+
+struct Check<'a>(&'a Findings);
+
+impl Check<'_> {
+    fn refuse(&self, place: Place, message: String, help: &str) {
+        self.0.add(Finding::at(place, message).help(help));
+    }
+
+    /// A name that stands in a script as it is.
+    fn word(&self, given: &Given<String>, key: &str) -> Option<String> {
+        let Given::Right(text, place) = given else { return None };
+        let plain = |letter: char| letter.is_alphanumeric() || "-_./+=:,@".contains(letter);
+        if !text.is_empty() && text.chars().all(plain) {
+            return Some(text.clone());
+        }
+        let message = format!("`{text}` is no name for `cluster.{key}`");
+        self.refuse(
+            *place,
+            message,
+            "write it as the cluster does, without blanks and quotes",
+        );
+        None
+    }
+
+    fn list(
+        &self,
+        given: &Given<Vec<Given<String>>>,
+        one: impl Fn(&Self, &Given<String>) -> Option<String>,
+    ) -> Vec<String> {
+        let items = given.right().map(Vec::as_slice).unwrap_or_default();
+        items.iter().filter_map(|item| one(self, item)).collect()
+    }
+
+    fn option(&self, given: &Given<String>) -> Option<String> {
+        let Given::Right(text, place) = given else { return None };
+        let name = text.split(['=', ' ']).next().unwrap_or_default();
+        if !text.starts_with("--") || text.contains(char::is_control) {
+            let message = format!("`{text}` is no option of sbatch in its long form");
+            self.refuse(*place, message, "write for example `options: [--mem=8G, --qos=long]`");
+        } else if RESERVED.contains(&name) {
+            let message = format!("`{name}` is set by cgaft itself");
+            self.refuse(
+                *place,
+                message,
+                "leave it out; `cgaft study plan FILE --on slurm` shows the script",
+            );
+        } else {
+            return Some(text.clone());
+        }
+        None
+    }
+
+    fn time(&self, given: &Given<Duration>) -> Option<f64> {
+        let Given::Right(time, place) = *given else { return None };
+        if time.value >= SHORTEST {
+            return Some(time.value);
+        }
+        let message = format!("`cluster.time` must be at least a minute, and {time} is not");
+        self.refuse(place, message, "write for example `time: 4 h`");
+        None
+    }
+
+    fn threads(&self, given: &Given<u32>) -> Option<u32> {
+        match *given {
+            Given::Right(0, place) => {
+                let message = "`cluster.threads` must be at least 1".to_owned();
+                self.refuse(place, message, "leave it out for one thread a case");
+                None
+            }
+            Given::Right(threads, _) => Some(threads),
+            _ => None,
+        }
+    }
+
+    /// The solver is one process until it speaks MPI.
+    fn only_one(&self, given: &Given<u32>, key: &str) {
+        if let Given::Right(number, place) = *given
+            && number != 1
+        {
+            let message = format!("`cluster.{key}: {number}` needs MPI, which is not in this version");
+            self.refuse(place, message, &format!("leave `{key}` out, and use `threads` instead"));
+        }
+    }
+}
