@@ -3,8 +3,8 @@ use clap::Args;
 use super::survey::Place;
 use super::terminal::Terminal;
 use super::{CliError, progress};
-use crate::executor::slurm::job::{self, TimeUp};
-use crate::executor::{Ending, Stop, exit};
+use crate::executor::slurm::job::{self, Bell};
+use crate::executor::{Ending, exit};
 use crate::store::Store;
 
 /// What a script of `study run --on slurm` says on a node.
@@ -22,15 +22,14 @@ pub struct Arguments {
 pub fn slurm_job(arguments: &Arguments) -> Result<u8, CliError> {
     let Arguments { place, study, id } = arguments;
     let signals = |error| CliError::Environment(format!("cannot catch signals: {error}"));
-    let stop = Stop::on_signals().map_err(signals)?;
-    let time_up = TimeUp::on_signal(&stop).map_err(signals)?;
+    let bell = Bell::on_signals().map_err(signals)?;
     let store = Store::open(&place.results, study)?;
     let terminal = Terminal {
         quiet: false,
         json: false,
     };
     let mut watcher = progress::watcher(terminal, &store);
-    let ending = stop.with_care(|| job::carry_out(&store, id, &stop, &time_up, watcher.as_mut()))?;
+    let ending = job::carry_out(&store, id, &bell, watcher.as_mut())?;
     match ending {
         Some(Ending::Done(_) | Ending::DoneElsewhere(_)) => Ok(0),
         Some(Ending::Interrupted(_) | Ending::NotStarted) => Ok(exit::INTERRUPTED),

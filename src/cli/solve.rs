@@ -140,13 +140,16 @@ fn other_case(into: &Path) -> String {
     )
 }
 
-/// Becomes true at Ctrl-C, SIGTERM and, if wanted, at the end of standard input. A second Ctrl-C ends the program at once.
+/// Becomes true at Ctrl-C, SIGTERM and, if wanted, at the end of standard input. A second Ctrl-C ends the program at once,
+/// unless somebody holds the pipe, who can do that too: a scheduler sends its signals several times, and means one.
 fn stop_flag(parent_pipe: bool) -> Result<Arc<AtomicBool>, SolveError> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
-        flag::register_conditional_shutdown(signal, i32::from(exit::INTERRUPTED), stop.clone())
-            .and_then(|_| flag::register(signal, stop.clone()))
-            .map_err(|error| SolveError::Environment(format!("cannot catch Ctrl-C: {error}")))?;
+        let failed = |error| SolveError::Environment(format!("cannot catch Ctrl-C: {error}"));
+        if !parent_pipe {
+            flag::register_conditional_shutdown(signal, i32::from(exit::INTERRUPTED), stop.clone()).map_err(failed)?;
+        }
+        flag::register(signal, stop.clone()).map_err(failed)?;
     }
     if parent_pipe {
         let stop = stop.clone();

@@ -70,7 +70,9 @@ scancel)
             put "$id" 'CANCELLED|None'
         else
             touch "$state/$id.cancelled"
+            # The real one may say it twice.
             kill -TERM "$(cat "$state/$id.pid")"
+            kill -TERM "$(cat "$state/$id.pid")" 2>/dev/null || true
         fi
     done
     ;;

@@ -18,8 +18,8 @@ const STUDY: &str = include_str!("../studies/slab.yaml");
 /// Slurm warns 15 to 45 s after its start.
 const SLOW_RATE: &str = "1.2e6 /s";
 
-/// A loaded machine, a job of a minute, and Slurm looking at limits twice a minute.
-const PATIENCE: Duration = Duration::from_secs(900);
+/// A loaded machine; nothing waits so long when all is well.
+const PATIENCE: Duration = Duration::from_secs(60);
 
 /// The daemons, which end with it.
 struct Slurm {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 
-use signal_hook::consts::SIGUSR1;
+use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
 use signal_hook::iterator::Signals;
 
 use super::{Ticket, commands};
@@ -14,24 +14,29 @@ use crate::executor::share::Share;
 use crate::executor::{Ending, ExecutorError, Stop, Watcher, launch};
 use crate::store::{Attempt, Store};
 
-/// Counts as a request to stop from now on: Slurm sends it when the time of the job is nearly up.
+/// What Slurm tells a job by signals.
 #[derive(Clone, Debug, Default)]
-pub struct TimeUp(Arc<AtomicBool>);
+pub struct Bell {
+    stop: Stop,
+    /// Its time is nearly up, and nobody has cancelled it.
+    time_up: Arc<AtomicBool>,
+}
 
-impl TimeUp {
-    pub fn on_signal(stop: &Stop) -> std::io::Result<TimeUp> {
-        let up = TimeUp::default();
-        let (flag, stop) = (up.clone(), stop.clone());
-        let mut signals = Signals::new([SIGUSR1])?;
+impl Bell {
+    /// Listens from now on. However often it rings, it asks once: Slurm repeats itself, and kills by other means.
+    pub fn on_signals() -> std::io::Result<Bell> {
+        let bell = Bell::default();
+        let Bell { stop, time_up } = bell.clone();
+        let mut signals = Signals::new([SIGINT, SIGTERM, SIGUSR1])?;
         thread::spawn(move || {
-            for _ in signals.forever() {
-                // Several warnings are no order to give up the checkpoint.
-                if !flag.0.swap(true, Ordering::SeqCst) {
+            for signal in signals.forever() {
+                time_up.store(signal == SIGUSR1, Ordering::SeqCst);
+                if !stop.requested() {
                     stop.request();
                 }
             }
         });
-        Ok(up)
+        Ok(bell)
     }
 }
 
@@ -42,8 +47,7 @@ impl TimeUp {
 pub fn carry_out(
     store: &Store,
     id: &str,
-    stop: &Stop,
-    time_up: &TimeUp,
+    bell: &Bell,
     watcher: &mut dyn Watcher,
 ) -> Result<Option<Ending>, ExecutorError> {
     let Some(ticket) = Ticket::read(store, id) else {
@@ -58,9 +62,9 @@ pub fn carry_out(
             threads: ticket.threads,
         },
     };
-    let mut endings = queue::run(store, std::slice::from_ref(&ticket.job), &settings, stop, watcher)?;
+    let mut endings = queue::run(store, std::slice::from_ref(&ticket.job), &settings, &bell.stop, watcher)?;
     let ending = endings.pop();
-    let slurm_id = own_id().filter(|_| time_up.0.load(Ordering::SeqCst));
+    let slurm_id = own_id().filter(|_| bell.time_up.load(Ordering::SeqCst));
     let (Some(Ending::Interrupted(attempt)), Some(slurm_id)) = (&ending, slurm_id) else {
         return Ok(ending);
     };
