@@ -315,10 +315,11 @@ impl Grid {
             }
         }
         let extent = [0, 1].map(|axis| (high[axis] - low[axis]).max(0.0));
-        // Fragments that fly far apart must not make more cells than there are points.
+        // Fragments that fly far apart must not make very many more cells than there are points; some more they may be,
+        // because the points of a crack lie along a line.
         let fitting = (extent[0] * extent[1] / position.len().max(1) as f64).sqrt();
         let longest = extent[0].max(extent[1]) / (position.len().max(1) as f64);
-        let cell = radius.max(0.5 * fitting).max(longest);
+        let cell = radius.max(0.1 * fitting).max(longest);
         let size = extent.map(|length| (length / cell) as usize + 1);
         let mut grid = Self {
             origin: low,
