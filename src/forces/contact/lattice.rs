@@ -1,6 +1,6 @@
 //! Atoms that are surrounded by atoms as in the perfect lattice: who their partners are follows from that.
 
-use super::partners::{Pair, Partner, Partners};
+use super::partners::{PairKind, Partner, Partners};
 use crate::forces::Planes;
 use crate::forces::regular::Regular;
 use crate::lattice::triangular;
@@ -147,10 +147,10 @@ impl AtomLattice {
 }
 
 /// What joins two sites of the lattice that are this far apart.
-pub fn pair_along(vector: [i32; 2]) -> Pair {
+pub fn pair_along(vector: [i32; 2]) -> PairKind {
     if triangular::squared_length(vector) == 1 {
-        Pair::Nearest
+        PairKind::Nearest
     } else {
-        Pair::Any
+        PairKind::Any
     }
 }

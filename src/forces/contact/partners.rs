@@ -8,7 +8,7 @@ pub struct Partner(u32);
 
 /// What is known of a pair of sites.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Pair {
+pub enum PairKind {
     /// Whatever comes near.
     Any,
     /// Nearest neighbours in the lattice, whose bond must be watched.
@@ -21,11 +21,11 @@ impl Partner {
     const SEVERED: u32 = 1 << 31;
     const NEAREST: u32 = 1 << 30;
 
-    pub fn new(site: usize, pair: Pair) -> Self {
+    pub fn new(site: usize, pair: PairKind) -> Self {
         let bits = match pair {
-            Pair::Any => 0,
-            Pair::Nearest => Self::NEAREST,
-            Pair::Severed => Self::SEVERED,
+            PairKind::Any => 0,
+            PairKind::Nearest => Self::NEAREST,
+            PairKind::Severed => Self::SEVERED,
         };
         Self(site as u32 | bits)
     }
@@ -67,7 +67,11 @@ impl Step {
     }
 
     fn from(self, site: usize) -> Partner {
-        let pair = if self.is_nearest { Pair::Nearest } else { Pair::Any };
+        let pair = if self.is_nearest {
+            PairKind::Nearest
+        } else {
+            PairKind::Any
+        };
         Partner::new(site.wrapping_add_signed(self.by as isize), pair)
     }
 }
@@ -270,13 +274,13 @@ mod tests {
     fn sites_with_the_same_surroundings_share_them_and_none_is_lost() {
         let lists: Vec<Vec<Partner>> = (0..60usize)
             .map(|site| match site {
-                0..20 => [1, 5].map(|step| Partner::new(site + step, Pair::Any)).to_vec(),
-                20..24 => vec![Partner::new(site - 3, Pair::Any)],
-                24 => vec![Partner::new(7, Pair::Severed)],
+                0..20 => [1, 5].map(|step| Partner::new(site + step, PairKind::Any)).to_vec(),
+                20..24 => vec![Partner::new(site - 3, PairKind::Any)],
+                24 => vec![Partner::new(7, PairKind::Severed)],
                 25..30 => vec![],
                 _ => vec![
-                    Partner::new(site - 30, Pair::Nearest),
-                    Partner::new(site - 1, Pair::Any),
+                    Partner::new(site - 30, PairKind::Nearest),
+                    Partner::new(site - 1, PairKind::Any),
                 ],
             })
             .collect();

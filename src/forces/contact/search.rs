@@ -8,7 +8,7 @@ use super::super::summation::Summation;
 use super::super::{CHUNK, Planes};
 use super::Contacts;
 use super::lattice::{AtomLattice, Surroundings, pair_along};
-use super::partners::{Pair, Partner};
+use super::partners::{PairKind, Partner};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
@@ -283,10 +283,12 @@ impl Candidates {
             let [dx, dy] = [self.position[other][0] - x, self.position[other][1] - y];
             if dx * dx + dy * dy < limit && !field.summed_elsewhere(self.element[candidate], self.element[other]) {
                 let there = site_of(other);
-                let pair = match () {
-                    () if field.mesh.severed(site, there) => Pair::Severed,
-                    () if is_watched && other >= self.carried => pair_along([there[0] - site[0], there[1] - site[1]]),
-                    () => Pair::Any,
+                let pair = if field.mesh.severed(site, there) {
+                    PairKind::Severed
+                } else if is_watched && other >= self.carried {
+                    pair_along([there[0] - site[0], there[1] - site[1]])
+                } else {
+                    PairKind::Any
                 };
                 partners.push(Partner::new(other, pair));
             }
