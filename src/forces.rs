@@ -36,6 +36,7 @@ use contact::Contacts;
 use contact::lattice::AtomLattice;
 use interface::{IntactLimit, Pair, State};
 use maps::Maps;
+use measure::in_parts;
 use pulp::Arch;
 use rayon::prelude::*;
 use summation::SampledStrings;
@@ -189,11 +190,31 @@ impl Forces {
 
     /// Forces on all nodes, eV/nm.
     pub fn compute(&mut self, position: &Planes, force: &mut Planes) -> Result<(), ForceError> {
+        self.sum::<false>(position, force, &mut Measure::default())
+    }
+
+    /// The same forces to the bit, and what every element holds.
+    pub fn compute_and_measure(
+        &mut self,
+        position: &Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Result<(), ForceError> {
+        measure.fit(self.mesh.elements.len());
+        self.sum::<true>(position, force, measure)
+    }
+
+    fn sum<const MEASURED: bool>(
+        &mut self,
+        position: &Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Result<(), ForceError> {
         with_law!(self.material.interaction, law => {
-            self.sum_tiles(&law, position, force);
-            self.sum_contacts(&law, position)?;
+            self.sum_tiles::<_, MEASURED>(&law, position, force, measure);
+            self.sum_contacts::<_, MEASURED>(&law, position, force, measure)?;
         });
-        self.contacts.add_to(&self.mesh, force);
+        self.contacts.add_to(&self.mesh, force, measure);
         Ok(())
     }
 
@@ -204,7 +225,13 @@ impl Forces {
     }
 
     /// Sums what is found by search or is an atom's, as often as some atom turns out to be disturbed.
-    fn sum_contacts<S: PairShape>(&mut self, law: &CutPotential<S>, position: &Planes) -> Result<(), ForceError> {
+    fn sum_contacts<S: PairShape, const MEASURED: bool>(
+        &mut self,
+        law: &CutPotential<S>,
+        position: &Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Result<(), ForceError> {
         loop {
             self.prepare_contacts(position)?;
             let field = contact::SumField {
@@ -213,7 +240,7 @@ impl Forces {
                 regular: self.limit.regular,
                 mesh: &self.mesh,
             };
-            let disturbed = self.contacts.sum(&field, position);
+            let disturbed = self.contacts.sum::<S, MEASURED>(&field, position, force, measure);
             if disturbed.is_empty() {
                 return Ok(());
             }
@@ -224,10 +251,16 @@ impl Forces {
 
     /// Sums what happens inside triangles and between those whose interfaces are not open, and notes interfaces that
     /// loosen or open.
-    fn sum_tiles<S: PairShape>(&mut self, law: &CutPotential<S>, position: &Planes, force: &mut Planes) {
+    fn sum_tiles<S: PairShape, const MEASURED: bool>(
+        &mut self,
+        law: &CutPotential<S>,
+        position: &Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) {
         self.maps.update(position);
         let everywhere = vec![true; self.tiles.len()];
-        let mut irregular = self.sum_these_tiles(law, position, force, &everywhere);
+        let mut irregular = self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &everywhere);
         loop {
             let changed = self.changed_interfaces(&irregular, position);
             if changed.is_empty() {
@@ -244,16 +277,17 @@ impl Forces {
             }
             self.watch(changed.into_iter().map(|(number, _)| number));
             self.contacts.forget();
-            irregular.extend(self.sum_these_tiles(law, position, force, &touched));
+            irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &touched));
         }
     }
 
-    /// Forces on the triangles of some tiles; returns those whose interfaces may loosen or open.
-    fn sum_these_tiles<S: PairShape>(
+    /// Sums of the triangles of some tiles; returns those whose interfaces may loosen or open.
+    fn sum_these_tiles<S: PairShape, const MEASURED: bool>(
         &self,
         law: &CutPotential<S>,
         position: &Planes,
         force: &mut Planes,
+        measure: &mut Measure,
         these: &[bool],
     ) -> Vec<u32> {
         let field = tile::Field {
@@ -267,18 +301,21 @@ impl Forces {
             maps: &self.maps,
             position,
         };
-        let length = 3 * tile::tile_length(self.mesh.triangles);
-        let [x, y] = force
-            .each_mut()
-            .map(|axis| axis[..3 * self.mesh.triangles].par_chunks_mut(length));
-        let tiles = self.tiles.par_iter().zip(these).zip(x.zip(y));
+        let triangles = self.mesh.triangles;
+        let [length, count] = [tile::tile_length(triangles), self.tiles.len()];
+        let force = in_parts(
+            force.each_mut().map(|axis| &mut axis[..3 * triangles]),
+            3 * length,
+            count,
+        );
+        let [held, _] = measure.split(triangles);
+        let outputs = force.zip(in_parts(held, length, count));
+        let tiles = self.tiles.iter().zip(outputs).zip(these).filter(|&(_, &asked)| asked);
+        let tiles: Vec<_> = tiles.map(|(tile, _)| tile).collect();
         tiles
-            .map_init(Scratch::default, |scratch, ((tile, &asked), (x, y))| {
-                if asked {
-                    tile::sum(&field, tile, scratch, x, y)
-                } else {
-                    Vec::new()
-                }
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, (tile, (force, held))| {
+                tile::sum::<S, MEASURED>(&field, tile, scratch, tile::Output { force, held })
             })
             .flatten_iter()
             .collect()

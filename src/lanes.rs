@@ -5,6 +5,7 @@
 use std::ops::{Add, Mul, Sub};
 
 use pulp::Simd;
+use rayon::prelude::*;
 
 /// Numbers side by side. `simd` says which instructions the processor has.
 #[derive(Clone, Copy, Debug)]
@@ -110,6 +111,27 @@ impl<S: Simd> Lanes<S> {
 
 /// The most lanes any processor has.
 pub const MOST: usize = 8;
+
+/// Terms of a sum that one thread adds.
+const BLOCK: usize = 4096;
+
+/// The sum of so many terms in an order that only their number sets: as many sums side by side as there may be lanes in
+/// every block, then block by block.
+pub fn sum(count: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
+    let of_block = |block: usize| {
+        let mut sums = [0.0; MOST];
+        let end = count.min((block + 1) * BLOCK);
+        let mut at = block * BLOCK;
+        while at + MOST <= end {
+            (0..MOST).for_each(|lane| sums[lane] += term(at + lane));
+            at += MOST;
+        }
+        (at..end).for_each(|k| sums[k - at] += term(k));
+        sums.iter().sum::<f64>()
+    };
+    let blocks: Vec<f64> = (0..count.div_ceil(BLOCK)).into_par_iter().map(of_block).collect();
+    blocks.into_iter().sum()
+}
 
 impl<S: Simd> Mask<S> {
     #[inline(always)]

@@ -129,6 +129,9 @@ pub struct Solver {
     /// Half a kick that the velocities still lack, ps.
     due_kick: Option<f64>,
     power: f64,
+    measure: Measure,
+    /// Whether the measure is that of the present state.
+    measured: bool,
     ledger: Ledger,
     probes: Schedule,
     snapshots: Schedule,
@@ -160,14 +163,14 @@ impl Solver {
         let j_integral = JIntegral::new(&mesh, material);
         let tracker = Tracker::new(&setting);
         let mut forces = Forces::with_summation(mesh, material, settings.summation);
+        let mut measure = Measure::default();
         forces
-            .compute(&state.position, &mut state.force)
+            .compute_and_measure(&state.position, &mut state.force, &mut measure)
             .map_err(SolverError::NoStart)?;
-        let start = forces.measure_computed(&state.position);
         let stability_limit = time_step::limit(&forces, &state);
         let time_step = settings.time_step.choose(stability_limit)?;
         let jump = material.interaction.jump_at_cutoff();
-        let ledger = Ledger::new(&start, state.kinetic_energy(), jump);
+        let ledger = Ledger::new(&measure, state.kinetic_energy(), jump);
         let power = loading.power(&state);
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
@@ -189,6 +192,8 @@ impl Solver {
             stability_limit,
             due_kick: None,
             power,
+            measure,
+            measured: true,
             ledger,
             probes,
             snapshots,
@@ -282,11 +287,8 @@ impl Solver {
         }
         self.refuse_a_crack_that_ran()?;
         self.loading.start(self.forces.mesh(), &mut self.state);
-        let start = self
-            .forces
-            .measure(&self.state.position)
-            .map_err(SolverError::NoStart)?;
-        self.ledger.begin(&start, self.state.kinetic_energy());
+        self.compute(true).map_err(SolverError::NoStart)?;
+        self.ledger.begin(&self.measure, self.state.kinetic_energy());
         self.power = self.loading.power(&self.state);
         self.stability_limit = time_step::limit(&self.forces, &self.state);
         self.time_step = self.settings.time_step.choose(self.stability_limit)?;

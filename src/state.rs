@@ -1,5 +1,7 @@
 //! The state of a specimen in motion.
 
+use crate::lanes;
+
 /// Positions, velocities, forces and masses of the nodes, a plane (x, y) each. Units nm, ps, eV.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct State {
@@ -50,12 +52,10 @@ impl State {
     /// Kinetic energy, v^T M v/2, eV.
     pub fn kinetic_energy(&self) -> f64 {
         let [x, y] = &self.velocity;
-        let squared = x
-            .iter()
-            .zip(y)
-            .zip(&self.mass)
-            .map(|((x, y), mass)| mass * (x * x + y * y));
-        0.5 * (squared.sum::<f64>() + self.coupled_part())
+        let squared = lanes::sum(self.nodes(), |node| {
+            self.mass[node] * (x[node] * x[node] + y[node] * y[node])
+        });
+        0.5 * (squared + self.coupled_part())
     }
 
     /// What coupling adds to v^T M v: c m ((sum v)^2 - 3 sum v^2) for every triangle.

@@ -4,6 +4,7 @@ use pulp::Simd;
 
 use super::affine::{Affine, smallest_stretch};
 use super::maps::{MapLanes, squared};
+use super::measure::{Count, PARTS};
 use super::summation::Summation;
 use crate::lanes::Lanes;
 use crate::lattice::triangular;
@@ -21,31 +22,58 @@ pub struct BulkBond {
     pub length: f64,
 }
 
-/// Forces of bonds inside triangles on their nodes, x and y of each.
+/// What the bonds inside triangles give.
+#[derive(Clone, Copy)]
+pub struct BulkSum<L: Simd> {
+    /// Forces on the nodes, x and y of each.
+    pub nodal: [Lanes<L>; 6],
+    /// Zero where nothing is measured.
+    pub held: [Lanes<L>; PARTS],
+}
+
+/// Forces of bonds inside triangles on their nodes, and what the bonds hold if it is to be `MEASURED`.
 #[inline(always)]
-pub fn force<S: PairShape, L: Simd>(
+pub fn sum<S: PairShape, L: Simd, const MEASURED: bool>(
     simd: L,
     law: &CutPotential<S>,
     size: i32,
     map: &MapLanes<L>,
     bonds: &[BulkBond],
-) -> [Lanes<L>; 6] {
+) -> BulkSum<L> {
     let zero = Lanes::all(simd, 0.0);
+    let mut count = Count::<L, MEASURED>::new(simd);
     let [mut first_x, mut first_y, mut second_x, mut second_y] = [zero; 4];
     for bond in bonds {
         let [x, y] = map.vector(bond.vector);
-        let pull = law.slopes(simd, squared([x, y])) * -bond.count;
+        let slopes = count.slopes(simd, law, squared([x, y]), Lanes::all(simd, bond.count));
+        let pull = slopes * -bond.count;
         let [p, q] = [pull * bond.vector[0], pull * bond.vector[1]];
         first_x = p.mul_add(x, first_x);
         first_y = p.mul_add(y, first_y);
         second_x = q.mul_add(x, second_x);
         second_y = q.mul_add(y, second_y);
     }
+    let mut held = [zero; PARTS];
+    if MEASURED {
+        // A bond is p along[0] + q along[1]: the forces have its parts already, with the opposite sign.
+        let [a, b] = map.along;
+        let virial = |x: Lanes<L>, y: Lanes<L>, axis: usize| zero - x * a[axis] - y * b[axis];
+        held = [
+            count.energy,
+            count.pairs,
+            virial(first_x, second_x, 0),
+            virial(first_y, second_y, 1),
+            virial(first_x, second_x, 1),
+        ];
+    }
     let edge = 1.0 / f64::from(size - 1);
     let [first_x, first_y] = [first_x * edge, first_y * edge];
     let [second_x, second_y] = [second_x * edge, second_y * edge];
     let [x, y] = [zero - first_x - second_x, zero - first_y - second_y];
-    [x, y, first_x, first_y, second_x, second_y]
+    BulkSum {
+        nodal: [x, y, first_x, first_y, second_x, second_y],
+        held,
+    }
 }
 
 /// For every triangle size in a mesh its lattice vectors by length; the first `listed` are always summed.

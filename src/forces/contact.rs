@@ -18,6 +18,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::affine::site_position;
+use super::measure::{Measure, PARTS, in_parts};
 use super::regular::Regular;
 use super::{CHUNK, Planes};
 use crate::lanes::MOST;
@@ -44,8 +45,12 @@ pub struct Contacts {
     spacing: f64,
     /// With room for lanes beyond the last site.
     position: Planes,
-    force: Planes,
+    /// Sums of the sites that triangles carry.
+    of_carried: [Vec<f64>; SUMS],
 }
+
+/// Sums of a site: its force, x and y, and half of what its bonds hold.
+const SUMS: usize = 2 + PARTS;
 
 /// What the sums are taken over.
 pub struct SumField<'a, S> {
@@ -103,48 +108,78 @@ impl Contacts {
         self.local.get(site).map_or([0, 0], |local| local.map(i32::from))
     }
 
-    /// Computes where the sites are and what force each feels, eV/nm; returns atoms that turn out to be disturbed.
-    pub fn sum<S: PairShape>(&mut self, field: &SumField<S>, position: &Planes) -> Vec<u32> {
+    /// Computes where the sites are and what force each feels, eV/nm. Puts the forces of atoms where they belong, and what
+    /// atoms hold if it is to be `MEASURED`; returns atoms that turn out to be disturbed.
+    pub fn sum<S: PairShape, const MEASURED: bool>(
+        &mut self,
+        field: &SumField<S>,
+        position: &Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Vec<u32> {
         self.spacing = field.mesh.spacing;
         self.place_sites(field.mesh, position);
-        let [mut force_x, mut force_y] = std::mem::take(&mut self.force);
-        force_x.resize(self.partners.site_count(), 0.0);
-        force_y.resize(self.partners.site_count(), 0.0);
-        let planes = force_x
-            .par_chunks_mut(Self::TASK)
-            .zip(force_y.par_chunks_mut(Self::TASK));
-        let irregular = planes.enumerate().flat_map_iter(|(task, (x, y))| {
-            let sites = task * Self::TASK..task * Self::TASK + x.len();
-            sums::sum_sites(field.arch, self, field.law, field.regular, sites, x, y)
-        });
-        let carried = self.carrier.len() as u32;
-        let irregular = irregular.map(|site| site - carried).collect();
-        self.force = [force_x, force_y];
+        let carried = self.carrier.len();
+        let mut of_carried = std::mem::take(&mut self.of_carried);
+        for (part, plane) in of_carried.iter_mut().enumerate() {
+            plane.resize(if MEASURED || part < 2 { carried } else { 0 }, 0.0);
+        }
+        let own = of_carried.each_mut().map(Vec::as_mut_slice);
+        self.sum_sites::<S, MEASURED>(field, 0..carried, own);
+        self.of_carried = of_carried;
+        let triangles = field.mesh.triangles;
+        let [x, y] = force.each_mut().map(|plane| &mut plane[3 * triangles..]);
+        let [_, [energy, pairs, xx, yy, xy]] = measure.split(triangles);
+        let of_atoms = [x, y, energy, pairs, xx, yy, xy];
+        let mut irregular = self.sum_sites::<S, MEASURED>(field, carried..self.partners.site_count(), of_atoms);
+        irregular.iter_mut().for_each(|site| *site -= carried as u32);
         irregular
     }
 
-    /// Adds the forces of the last call of [`Self::sum`] to those on the nodes of triangles and puts them on atoms.
-    pub fn add_to(&self, mesh: &Mesh, force: &mut Planes) {
-        let sites = self.carrier.len();
-        let nodes = 3 * mesh.triangles;
-        for (axis, force) in force.iter_mut().enumerate() {
-            let (triangles, atoms) = force.split_at_mut(nodes);
-            let chunks = triangles.par_chunks_mut(3 * CHUNK).enumerate();
-            chunks.for_each(|(chunk, force)| self.add_to_triangles(mesh, chunk * CHUNK, &self.force[axis], force));
-            let planes = atoms
-                .par_chunks_mut(Self::TASK)
-                .zip(self.force[axis][sites..].par_chunks(Self::TASK));
-            planes.for_each(|(atoms, forces)| atoms.copy_from_slice(forces));
+    /// Sums of consecutive sites; returns those with irregular bonds.
+    fn sum_sites<S: PairShape, const MEASURED: bool>(
+        &self,
+        field: &SumField<S>,
+        sites: Range<usize>,
+        sums: [&mut [f64]; SUMS],
+    ) -> Vec<u32> {
+        let parts = in_parts(sums, Self::TASK, sites.len().div_ceil(Self::TASK));
+        let tasks: Vec<_> = sites.clone().step_by(Self::TASK).zip(parts).collect();
+        let sum = |(from, sums): (usize, [&mut [f64]; SUMS])| {
+            let task = from..sites.end.min(from + Self::TASK);
+            sums::sum_sites::<S, MEASURED>(field.arch, self, field.law, field.regular, task, sums)
+        };
+        tasks.into_par_iter().flat_map_iter(sum).collect()
+    }
+
+    /// Adds the last sums of the sites that triangles carry to the forces on nodes and to what triangles hold.
+    pub fn add_to(&self, mesh: &Mesh, force: &mut Planes, measure: &mut Measure) {
+        if self.carrier.is_empty() {
+            return;
+        }
+        let [x, y, held @ ..] = &self.of_carried;
+        for (plane, of_site) in force.iter_mut().zip([x, y]) {
+            let chunks = plane[..3 * mesh.triangles].par_chunks_mut(3 * CHUNK).enumerate();
+            chunks.for_each(|(chunk, force)| {
+                let from = chunk * CHUNK;
+                for (site, carrier) in self.carried_by(from..from + force.len() / 3) {
+                    let weights = mesh.elements[carrier].shape_functions(self.local(site));
+                    (0..3).for_each(|node| force[3 * (carrier - from) + node] += weights[node] * of_site[site]);
+                }
+            });
+        }
+        let [of_triangles, _] = measure.split(mesh.triangles);
+        for (plane, of_site) in of_triangles.into_iter().zip(held) {
+            for (site, carrier) in self.carried_by(0..plane.len()) {
+                plane[carrier] += of_site[site];
+            }
         }
     }
 
-    fn add_to_triangles(&self, mesh: &Mesh, from: usize, of_site: &[f64], force: &mut [f64]) {
-        let [first, last] = [from, from + force.len() / 3].map(|triangle| self.of_triangle[triangle] as usize);
-        for site in first..last {
-            let carrier = self.carrier[site] as usize;
-            let weights = mesh.elements[carrier].shape_functions(self.local(site));
-            (0..3).for_each(|node| force[3 * (carrier - from) + node] += weights[node] * of_site[site]);
-        }
+    /// The sites of some triangles, and by which each is carried.
+    fn carried_by(&self, triangles: Range<usize>) -> impl Iterator<Item = (usize, usize)> {
+        let sites = self.of_triangle[triangles.start]..self.of_triangle[triangles.end];
+        sites.map(|site| (site as usize, self.carrier[site as usize] as usize))
     }
 
     /// Brings the positions of the sites up to date.

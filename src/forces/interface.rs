@@ -5,6 +5,7 @@ use pulp::Simd;
 use super::Planes;
 use super::affine::{Affine, smallest_stretch};
 use super::maps::{MapLanes, squared};
+use super::measure::{Count, PARTS};
 use super::regular::Regular;
 use super::summation::{Sample, SampledString};
 use crate::lanes::{Lanes, Mask};
@@ -157,21 +158,26 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// Sum of the bond forces of a string, x and y, and their first moment with the place along it.
-pub type StringSum<L> = [Lanes<L>; 4];
+/// Sum of the bond forces of a string, x and y, their first moment with the place along it, and what its bonds hold.
+pub struct StringSum<L: Simd, const MEASURED: bool> {
+    pub force: [Lanes<L>; 2],
+    pub moment: [Lanes<L>; 2],
+    held: Count<L, MEASURED>,
+}
 
-/// Sums all strings between some pairs of triangles; returns whether all nearest-neighbour bonds among them are as in a
-/// regular lattice.
+/// Sums all strings between some pairs of triangles. Returns whether all nearest-neighbour bonds among them are as in a
+/// regular lattice, and what they hold if it is to be `MEASURED`.
 #[inline(always)]
-pub fn sum_strings<S: PairShape, L: Simd>(
+pub fn sum_strings<S: PairShape, L: Simd, const MEASURED: bool>(
     simd: L,
     law: &CutPotential<S>,
     limit: &IntactLimit,
     [first, second]: &[MapLanes<L>; 2],
     strings: &[SampledString],
-    mut store: impl FnMut(usize, StringSum<L>),
-) -> Mask<L> {
+    mut store: impl FnMut(usize, &StringSum<L, MEASURED>),
+) -> (Mask<L>, [Lanes<L>; PARTS]) {
     let mut regular = Mask::all(simd, limit.regular.is_some());
+    let mut held = [Lanes::all(simd, 0.0); PARTS];
     for (number, sampled) in strings.iter().enumerate() {
         let [start, step] = bonds_along(sampled, [first, second]);
         let length = sampled.length;
@@ -190,9 +196,53 @@ pub fn sum_strings<S: PairShape, L: Simd>(
             None => sum_samples(simd, law, start, step, &sampled.samples),
             Some(limit) => sum_sampled(simd, law, start, step, sampled, squared_bend.is_below(limit)),
         };
-        store(number, sum);
+        if MEASURED {
+            sum.add_to(&mut held, start, step);
+        }
+        store(number, &sum);
     }
-    regular
+    (regular, held)
+}
+
+impl<L: Simd, const MEASURED: bool> StringSum<L, MEASURED> {
+    #[inline(always)]
+    fn new(simd: L) -> Self {
+        Self {
+            force: [Lanes::all(simd, 0.0); 2],
+            moment: [Lanes::all(simd, 0.0); 2],
+            held: Count::new(simd),
+        }
+    }
+
+    /// Bonds are start + t step, so that the sum of force and bond, component by component, follows from the sum of
+    /// forces and their moment.
+    #[inline(always)]
+    fn add_to(&self, [energy, pairs, xx, yy, xy]: &mut [Lanes<L>; PARTS], start: [Lanes<L>; 2], step: [Lanes<L>; 2]) {
+        let product = |i: usize, j: usize, before: Lanes<L>| {
+            self.force[i].mul_add(start[j], self.moment[i].mul_add(step[j], before))
+        };
+        *energy = *energy + self.held.energy;
+        *pairs = *pairs + self.held.pairs;
+        *xx = product(0, 0, *xx);
+        *yy = product(1, 1, *yy);
+        *xy = product(0, 1, *xy);
+    }
+
+    /// This where the mask says yes, the other elsewhere.
+    #[inline(always)]
+    fn where_or(&self, mask: Mask<L>, other: &Self) -> Self {
+        let pick = |one: &[Lanes<L>; 2], other: &[Lanes<L>; 2]| {
+            [one[0].where_or(mask, other[0]), one[1].where_or(mask, other[1])]
+        };
+        Self {
+            force: pick(&self.force, &other.force),
+            moment: pick(&self.moment, &other.moment),
+            held: Count {
+                energy: self.held.energy.where_or(mask, other.held.energy),
+                pairs: self.held.pairs.where_or(mask, other.held.pairs),
+            },
+        }
+    }
 }
 
 /// The first bond vector of a string between some pairs of triangles, and its change from bond to bond.
@@ -206,69 +256,65 @@ pub fn bonds_along<L: Simd>(sampled: &SampledString, [first, second]: [&MapLanes
 
 /// The sums of strings that are looked at in few places where they are hardly bent.
 #[inline(always)]
-fn sum_sampled<S: PairShape, L: Simd>(
+fn sum_sampled<S: PairShape, L: Simd, const MEASURED: bool>(
     simd: L,
     law: &CutPotential<S>,
     start: [Lanes<L>; 2],
     step: [Lanes<L>; 2],
     sampled: &SampledString,
     hardly_bent: Mask<L>,
-) -> StringSum<L> {
-    let [a, b, c, d] = sum_samples(simd, law, start, step, &sampled.few);
+) -> StringSum<L, MEASURED> {
+    let of_few = sum_samples(simd, law, start, step, &sampled.few);
     if hardly_bent.every() {
-        return [a, b, c, d];
+        return of_few;
     }
-    let [e, f, g, h] = sum_bonds(simd, law, start, step, sampled.string.count);
-    let pick = |few: Lanes<L>, all: Lanes<L>| few.where_or(hardly_bent, all);
-    [pick(a, e), pick(b, f), pick(c, g), pick(d, h)]
+    let of_all = sum_bonds(simd, law, start, step, sampled.string.count);
+    of_few.where_or(hardly_bent, &of_all)
 }
 
 #[inline(always)]
-fn sum_samples<S: PairShape, L: Simd>(
+fn sum_samples<S: PairShape, L: Simd, const MEASURED: bool>(
     simd: L,
     law: &CutPotential<S>,
     start: [Lanes<L>; 2],
     step: [Lanes<L>; 2],
     samples: &[Sample],
-) -> StringSum<L> {
-    let zero = Lanes::all(simd, 0.0);
-    let [mut sum_x, mut sum_y, mut moment_x, mut moment_y] = [zero; 4];
+) -> StringSum<L, MEASURED> {
+    let mut sum = StringSum::new(simd);
     for &Sample { at, weight } in samples {
         let [x, y] = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
-        let pull = law.slopes(simd, squared([x, y])) * weight;
+        let slopes = sum.held.slopes(simd, law, squared([x, y]), Lanes::all(simd, weight));
+        let pull = slopes * weight;
         let lever = pull * at;
-        sum_x = sum_x + pull * x;
-        sum_y = sum_y + pull * y;
-        moment_x = lever.mul_add(x, moment_x);
-        moment_y = lever.mul_add(y, moment_y);
+        sum.force = [sum.force[0] + pull * x, sum.force[1] + pull * y];
+        sum.moment = [lever.mul_add(x, sum.moment[0]), lever.mul_add(y, sum.moment[1])];
     }
-    [sum_x, sum_y, moment_x, moment_y]
+    sum
 }
 
 /// The sums over all bonds, each counted once. From the last to the first the moment is the sum of the sums so far, which
 /// takes additions instead of products.
 #[inline(always)]
-fn sum_bonds<S: PairShape, L: Simd>(
+fn sum_bonds<S: PairShape, L: Simd, const MEASURED: bool>(
     simd: L,
     law: &CutPotential<S>,
     start: [Lanes<L>; 2],
     step: [Lanes<L>; 2],
     count: i32,
-) -> StringSum<L> {
-    let zero = Lanes::all(simd, 0.0);
-    let [mut sum_x, mut sum_y, mut moment_x, mut moment_y] = [zero; 4];
+) -> StringSum<L, MEASURED> {
+    let mut sum = StringSum::new(simd);
+    let one = Lanes::all(simd, 1.0);
     let last = f64::from(count - 1);
     let [mut x, mut y] = [step[0].times_add(last, start[0]), step[1].times_add(last, start[1])];
     for _ in 1..count {
-        let pull = law.slopes(simd, squared([x, y]));
-        sum_x = sum_x + pull * x;
-        sum_y = sum_y + pull * y;
-        moment_x = moment_x + sum_x;
-        moment_y = moment_y + sum_y;
+        let pull = sum.held.slopes(simd, law, squared([x, y]), one);
+        sum.force = [sum.force[0] + pull * x, sum.force[1] + pull * y];
+        sum.moment = [sum.moment[0] + sum.force[0], sum.moment[1] + sum.force[1]];
         x = x - step[0];
         y = y - step[1];
     }
     let [x, y] = start;
-    let pull = law.slopes(simd, squared([x, y]));
-    [sum_x + pull * x, sum_y + pull * y, moment_x, moment_y]
+    let pull = sum.held.slopes(simd, law, squared([x, y]), one);
+    sum.force = [sum.force[0] + pull * x, sum.force[1] + pull * y];
+    sum
 }

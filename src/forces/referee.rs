@@ -15,6 +15,8 @@ pub struct Reference {
     pub force: Planes,
     /// Number of pairs within the cutoff; severed pairs do not count.
     pub pairs: f64,
+    /// For every element the sum over its pairs of phi'/r d d, half of those it shares: xx, yy, xy, eV.
+    pub virial: Vec<[f64; 3]>,
 }
 
 /// Sums over all pairs of sites, each weighed as its two sites are. The cost grows with the square of their number.
@@ -36,6 +38,7 @@ pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes, s
         energy: 0.0,
         force: [vec![0.0; mesh.node_count()], vec![0.0; mesh.node_count()]],
         pairs: 0.0,
+        virial: vec![[0.0; 3]; mesh.elements.len()],
     };
     for a in 0..sites.len() {
         for b in a + 1..sites.len() {
@@ -53,9 +56,15 @@ pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes, s
             let count = 0.5 * (weights[a] + weights[b]);
             reference.energy += count * value.energy;
             reference.pairs += if severed { 0.0 } else { count };
+            let [x, y] = vector;
             for axis in 0..2 {
                 site_force[a][axis] += count * value.slope * vector[axis];
                 site_force[b][axis] -= count * value.slope * vector[axis];
+            }
+            for element in [carried[a].0, carried[b].0] {
+                let half = 0.5 * count * value.slope;
+                let virial = &mut reference.virial[element];
+                (0..3).for_each(|k| virial[k] += half * [x * x, y * y, x * y][k]);
             }
         }
     }

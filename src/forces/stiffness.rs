@@ -2,16 +2,17 @@
 
 mod alike;
 mod atoms;
+mod bonds;
 
 use std::ops::Range;
 
 use nalgebra::Matrix6;
 use rayon::prelude::*;
 
-use super::measure::{Bond, BondKind};
 use super::{CHUNK, ForceError, Forces, Planes};
 use crate::potential::{CutPotential, PairShape, with_law};
 use crate::state::State;
+use bonds::{Bond, BondKind};
 
 /// Elements in one parallel task. The largest of a task is found from the first on, so that it sets what is looked at
 /// closely, but not the result.

@@ -45,14 +45,16 @@ fn every_instruction_set_gives_the_same_bits() {
         let (mut forces, position) = slab();
         forces.arch = arch;
         let mut force = position.each_ref().map(|axis| vec![0.0; axis.len()]);
-        forces.compute(&position, &mut force).expect("the slab is sound");
+        let mut measure = Measure::default();
+        forces
+            .compute_and_measure(&position, &mut force, &mut measure)
+            .expect("the slab is sound");
         assert!(!forces.open_interfaces().is_empty());
-        let measure = forces.measure_computed(&position);
         let state = Motion::at_rest(position, forces.mesh.lumped_masses());
         let bound = forces.squared_frequency_bound_computed(&state);
-        let virial = measure.virial.into_flattened();
-        let numbers = force.into_iter().flatten().chain(virial);
-        let numbers = numbers.chain([measure.energy, measure.pairs, bound]);
+        let virial = (0..forces.mesh.elements.len()).flat_map(|element| measure.virial(element));
+        let numbers = force.into_iter().flatten().chain(virial.collect::<Vec<_>>());
+        let numbers = numbers.chain([measure.energy(), measure.pairs(), bound]);
         numbers.map(f64::to_bits).collect::<Vec<_>>()
     };
     let one_by_one = forces_with(Arch::Scalar);

@@ -6,7 +6,7 @@
 
 mod sums;
 
-pub use sums::{Field, Scratch, sum};
+pub use sums::{Field, Output, Scratch, sum};
 
 use std::ops::Range;
 

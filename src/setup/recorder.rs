@@ -72,9 +72,9 @@ impl<'a> Recorder<'a> {
             .flat_map(Element::corners)
             .map(|site| mesh.reference(site));
         let displacement = reference.zip(&state.position[0]).zip(&state.position[1]);
-        let stress = mesh.elements.iter().zip(&measure.virial).map(|(element, virial)| {
+        let stress = mesh.elements.iter().enumerate().map(|(number, element)| {
             let volume = element.site_count() as f64 * self.site_volume;
-            virial.map(|component| component / volume)
+            measure.virial(number).map(|component| component / volume)
         });
         Frame {
             step: moment.step,

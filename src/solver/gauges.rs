@@ -70,7 +70,8 @@ impl Gauges {
             for axis in 0..2 {
                 sum[axis] += weight * state.velocity[axis][nodes.clone()].iter().sum::<f64>();
             }
-            (0..3).for_each(|k| sum[2 + k] += measure.virial[element][k] / volume);
+            let virial = measure.virial(element);
+            (0..3).for_each(|k| sum[2 + k] += virial[k] / volume);
         }
         sums.into_iter()
             .map(|(sum, count)| sum.map(|total| total / count))

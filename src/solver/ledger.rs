@@ -35,8 +35,8 @@ impl Ledger {
 
     pub fn new(start: &Measure, kinetic: f64, jump: f64) -> Self {
         Self {
-            initial_potential: start.energy,
-            initial_pairs: start.pairs,
+            initial_potential: start.energy(),
+            initial_pairs: start.pairs(),
             initial_kinetic: kinetic,
             jump,
             work: 0.0,
@@ -57,9 +57,9 @@ impl Ledger {
 
     /// Balances the energies of a moment and remembers the largest imbalance.
     pub fn balance(&mut self, measure: &Measure, kinetic: f64) -> Balance {
-        let potential = measure.energy - self.initial_potential;
+        let potential = measure.energy() - self.initial_potential;
         // Adding zero turns a negative zero into zero.
-        let cutoff_release = self.jump * (measure.pairs - self.initial_pairs) + 0.0;
+        let cutoff_release = self.jump * (measure.pairs() - self.initial_pairs) + 0.0;
         let imbalance = (kinetic - self.initial_kinetic + potential - self.work - cutoff_release).abs();
         self.peak_imbalance = self.peak_imbalance.max(imbalance);
         Balance {

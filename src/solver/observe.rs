@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::j_integral::Rings;
-use super::{Measure, Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe, temperature};
+use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe, temperature};
 use crate::analysis::crack::Tracker;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
@@ -18,9 +18,11 @@ impl Solver {
         }
         self.settle();
         let mut clock = Instant::now();
-        let measure = self.forces.measure_computed(&self.state.position);
+        if !self.measured {
+            self.compute(true).map_err(|source| self.blow_up(source))?;
+        }
         if probe {
-            self.probe(observer, &measure)?;
+            self.probe(observer)?;
         }
         if snapshot {
             let broken = self.forces.broken_bonds(&self.state.position);
@@ -30,7 +32,7 @@ impl Solver {
                 strain: self.strain(),
                 mesh: self.forces.mesh(),
                 state: &self.state,
-                measure: &measure,
+                measure: &self.measure,
                 broken: &broken,
             };
             observer.snapshot(&moment).map_err(RunError::Output)?;
@@ -39,14 +41,15 @@ impl Solver {
         Ok(())
     }
 
-    fn probe<O: Observer>(&mut self, observer: &mut O, measure: &Measure) -> Result<(), RunError<O::Error>> {
+    fn probe<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         let number = self.probes.taken() - 1;
         let bonds = self.changed_bonds(number as u32);
         if let Some(tracker) = &mut self.tracker {
             bonds.iter().for_each(|event| tracker.apply(event));
             self.stop.follow(tracker.tip().x, self.time);
         }
-        let row = self.probe_row(measure);
+        let row = self.probe_row();
+        let measure = &self.measure;
         let profile = self.profile.stress(measure, &self.setting);
         let reading = Reading {
             probe: &row,
@@ -82,7 +85,8 @@ impl Solver {
         self.reference_place(fastest.unwrap_or_default())
     }
 
-    fn probe_row(&mut self, measure: &Measure) -> Probe {
+    fn probe_row(&mut self) -> Probe {
+        let measure = &self.measure;
         let kinetic = self.state.kinetic_energy();
         let balance = self.ledger.balance(measure, kinetic);
         let [sigma_xx, sigma_yy, sigma_xy] = probe::average_stress(self.forces.mesh(), measure, &self.setting);

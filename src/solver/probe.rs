@@ -9,8 +9,9 @@ use crate::mesh::Mesh;
 pub fn average_stress(mesh: &Mesh, measure: &Measure, setting: &Setting) -> [f64; 3] {
     let mut sum = [0.0; 3];
     let mut sites = 0;
-    for (element, virial) in mesh.elements.iter().zip(&measure.virial) {
+    for (number, element) in mesh.elements.iter().enumerate() {
         if mesh.grip_of(element) == 0 {
+            let virial = measure.virial(number);
             sites += element.site_count();
             (0..3).for_each(|k| sum[k] += virial[k]);
         }
@@ -101,7 +102,8 @@ impl ProfileLine {
         for &(bin, element, sites) in &self.members {
             let (sum, count) = &mut sums[bin as usize];
             *count += f64::from(sites);
-            (0..3).for_each(|k| sum[k] += measure.virial[element as usize][k]);
+            let virial = measure.virial(element as usize);
+            (0..3).for_each(|k| sum[k] += virial[k]);
         }
         let volume = site_volume(setting);
         sums.into_iter()

@@ -39,9 +39,7 @@ impl Solver {
         self.state.position.clone_from(&checkpoint.position);
         self.state.velocity.clone_from(&checkpoint.velocity);
         self.forces.restore_open_interfaces(&checkpoint.open_interfaces);
-        self.forces
-            .compute(&self.state.position, &mut self.state.force)
-            .map_err(|source| self.blow_up(source))?;
+        self.compute(false).map_err(|source| self.blow_up(source))?;
         self.power = self.loading.power(&self.state);
         self.ledger.restore(
             checkpoint.start,

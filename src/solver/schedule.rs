@@ -22,14 +22,18 @@ impl Schedule {
         self.taken
     }
 
-    /// Whether it is due at this time, within half a step; then it counts as taken. At the end of a run it is due
-    /// unless the same moment has been served before.
+    /// Whether it is due at this time, within half a step.
+    pub fn is_due(&self, time: f64, time_step: f64) -> bool {
+        self.taken == 0 || time + 0.5 * time_step >= self.taken as f64 * self.every
+    }
+
+    /// Whether it is due; then it counts as taken. At the end of a run it is due unless the same moment has been served
+    /// before.
     pub fn take(&mut self, time: f64, time_step: f64, at_end: bool) -> bool {
         if at_end && self.served {
             return false;
         }
-        let due = self.taken == 0 || time + 0.5 * time_step >= self.taken as f64 * self.every;
-        self.served = due || at_end;
+        self.served = at_end || self.is_due(time, time_step);
         self.taken += u64::from(self.served);
         self.served
     }

@@ -2,9 +2,11 @@
 
 use std::time::Instant;
 
+use super::schedule::Schedule;
 use super::{Phase, Solver, SolverError, time_step};
 use crate::forces::ForceError;
 use crate::integrator;
+use crate::state::State;
 
 impl Solver {
     /// One step of central differences.
@@ -33,8 +35,7 @@ impl Solver {
         self.step += 1;
         self.time += time_step;
         self.cost.book(Phase::Motion, &mut clock);
-        self.forces
-            .compute(&self.state.position, &mut self.state.force)
+        self.compute(self.will_be_observed())
             .map_err(|source| self.blow_up(source))?;
         self.cost.book(Phase::Forces, &mut clock);
         self.due_kick = Some(0.5 * time_step);
@@ -49,6 +50,24 @@ impl Solver {
             self.cost.book(Phase::Stability, &mut clock);
         }
         Ok(())
+    }
+
+    /// Forces at the present positions, and what elements hold if it is asked for.
+    pub(super) fn compute(&mut self, measured: bool) -> Result<(), ForceError> {
+        let State { position, force, .. } = &mut self.state;
+        self.measured = measured;
+        if measured {
+            self.forces.compute_and_measure(position, force, &mut self.measure)
+        } else {
+            self.forces.compute(position, force)
+        }
+    }
+
+    /// Whether observers are given something at this time. Where the time step changes afterwards, it may turn out
+    /// otherwise.
+    fn will_be_observed(&self) -> bool {
+        let is_due = |schedule: &Schedule| schedule.is_due(self.time, self.time_step);
+        is_due(&self.probes) || is_due(&self.snapshots) || self.ending().is_some()
     }
 
     fn step_unstable(&self) -> SolverError {

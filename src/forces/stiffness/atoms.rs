@@ -42,7 +42,7 @@ impl<S: PairShape> WithSimd for Bounds<'_, S> {
         let Forces { contacts, mesh, .. } = self.forces;
         let [first, last] = [self.atoms.start, self.atoms.end - 1].map(|atom| contacts.sites_of(mesh, atom));
         let mut bounds = Vec::with_capacity(self.atoms.len());
-        contacts.tally(simd, first.start..last.end, &self.walls, |_, [xx, yy, xy, ..]| {
+        contacts.tally(simd, first.start..last.end, &self.walls, |_, [xx, yy, xy]| {
             bounds.push(0.5 * (xx + yy) + (0.25 * (xx - yy) * (xx - yy) + xy * xy).sqrt());
         });
         bounds
@@ -65,7 +65,7 @@ impl<S: PairShape> Tally for Walls<S> {
         }
     }
 
-    fn add_severed(&self, vector: [f64; 2], count: f64, sums: &mut [f64; 5]) {
+    fn add_severed(&self, vector: [f64; 2], count: f64, sums: &mut [f64; 3]) {
         let [x, y] = vector;
         let squared = x * x + y * y;
         let along = self.law.repulsion_curvature(squared.sqrt(), self.spacing);
