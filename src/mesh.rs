@@ -5,6 +5,7 @@
 pub mod cut;
 pub mod element;
 pub mod interfaces;
+mod owners;
 pub mod region;
 pub mod sites;
 mod tiling;
@@ -12,6 +13,7 @@ mod tiling;
 use crate::lattice::triangular;
 use cut::Cut;
 use element::Element;
+use owners::Owners;
 use region::Region;
 use sites::{Layout, SiteSet};
 
@@ -40,8 +42,7 @@ pub struct Mesh {
     pub elements: Vec<Element>,
     /// Number of triangles among the elements.
     pub triangles: usize,
-    /// The element of every site.
-    pub owner: Vec<u32>,
+    owners: Owners,
     pub cut: Option<Cut>,
     /// Lattice spacing, nm.
     pub spacing: f64,
@@ -58,13 +59,7 @@ impl Mesh {
         breaks.dedup();
         let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
-        let mut owner = vec![u32::MAX; sites.len()];
-        for (number, element) in elements.iter().enumerate() {
-            for (leftmost, count) in element.rows() {
-                let run = sites.run(leftmost, count).expect("elements lie inside the specimen");
-                owner[run].fill(number as u32);
-            }
-        }
+        let owners = Owners::new(&sites, &elements, triangles);
         let left = sites.left();
         let cut = plan.crack_length.map(|length| Cut {
             row: middle,
@@ -75,7 +70,7 @@ impl Mesh {
             sites,
             elements,
             triangles,
-            owner,
+            owners,
             cut,
             spacing: plan.spacing,
             grip_rows: plan.grip_rows,
@@ -138,7 +133,7 @@ impl Mesh {
     }
 
     pub fn owner_of(&self, site: [i32; 2]) -> Option<usize> {
-        self.sites.index(site).map(|number| self.owner[number] as usize)
+        self.sites.index(site).map(|number| self.owners.of(site[1], number))
     }
 
     /// Whether the pair of sites never bonds because its line crosses a cut.
@@ -210,10 +205,11 @@ mod tests {
     }
 
     fn check_cover(mesh: &Mesh) {
-        assert!(
-            mesh.owner.iter().all(|&owner| owner != u32::MAX),
-            "every site has an element"
-        );
+        let holds = |site: [i32; 2]| {
+            mesh.owner_of(site)
+                .is_some_and(|owner| mesh.elements[owner].contains(site))
+        };
+        assert!(mesh.sites.iter().all(holds), "every site is in its element");
         let held: usize = mesh.elements.iter().map(Element::site_count).sum();
         assert_eq!(held, mesh.sites.len(), "and only one");
     }

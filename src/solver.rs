@@ -38,7 +38,7 @@ use crate::state::State;
 use checkpoint::Checkpoint;
 use gauges::Gauges;
 use j_integral::JIntegral;
-use probe::ProfileLine;
+use probe::{Interior, ProfileLine};
 use schedule::Schedule;
 
 /// What a run is asked to do.
@@ -118,6 +118,7 @@ pub struct Solver {
     loading: Stretching,
     settings: Settings,
     setting: Setting,
+    interior: Interior,
     profile: ProfileLine,
     gauges: Gauges,
     j_integral: JIntegral,
@@ -158,6 +159,7 @@ impl Solver {
         loading.pre_stretch(&mesh, &mut state);
         loading.start(&mesh, &mut state);
         let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
+        let interior = Interior::new(&mesh);
         let profile = ProfileLine::new(&mesh, &setting);
         let gauges = Gauges::new(&mesh, &setting);
         let j_integral = JIntegral::new(&mesh, material);
@@ -183,6 +185,7 @@ impl Solver {
             loading,
             settings,
             setting,
+            interior,
             profile,
             gauges,
             j_integral,
@@ -321,9 +324,12 @@ impl Solver {
     fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         self.settle();
         let mut clock = Instant::now();
-        observer
-            .checkpoint(&self.checkpoint(), &self.cost())
-            .map_err(RunError::Output)?;
+        // The state is lent to the checkpoint: a copy would be most of what a run of atoms keeps in memory.
+        let mut checkpoint = self.checkpoint_without_motion();
+        checkpoint.lend(&mut self.state);
+        let saved = observer.checkpoint(&checkpoint, &self.cost());
+        checkpoint.lend(&mut self.state);
+        saved.map_err(RunError::Output)?;
         self.cost.book(Phase::Output, &mut clock);
         Ok(())
     }

@@ -22,7 +22,7 @@ impl Forces {
         broken
     }
 
-    /// Atoms that may have irregular bonds, and triangles that border anything but intact interfaces.
+    /// Atoms that may have irregular bonds, and triangles that border atoms or interfaces that are not intact.
     fn elements_that_meet_others(&self) -> Vec<u32> {
         let loosened = self.loosened.iter().map(|&number| number as usize);
         let open = loosened.filter(|&number| self.is_open(number));
@@ -32,7 +32,9 @@ impl Forces {
                 self.interfaces.pairs[number].second,
             ]
         });
-        let mut triangles: Vec<u32> = self.interfaces.exposed.iter().copied().chain(beside).collect();
+        let has_atoms = self.mesh.triangles < self.mesh.elements.len();
+        let exposed = self.interfaces.exposed.iter().copied().filter(|_| has_atoms);
+        let mut triangles: Vec<u32> = exposed.chain(beside).collect();
         triangles.sort_unstable();
         triangles.dedup();
         let first_atom = self.mesh.triangles as u32;
@@ -49,10 +51,13 @@ impl Forces {
             let site = shape.site(local);
             for (direction, vector) in triangular::NEAREST.iter().enumerate() {
                 let neighbour = [site[0] + vector[0], site[1] + vector[1]];
+                if shape.contains(neighbour) {
+                    continue;
+                }
                 let Some(other) = mesh.owner_of(neighbour) else {
                     continue;
                 };
-                if other == element || mesh.severed(site, neighbour) || self.is_intact_between(element, other) {
+                if mesh.severed(site, neighbour) || self.is_intact_between(element, other) {
                     continue;
                 }
                 let there = mesh.elements[other].local(neighbour);

@@ -1,6 +1,8 @@
 //! What bonds hold beside the forces that they exert: energy, their number and the virial. All of it is a by-product of
 //! the forces.
 
+use std::ops::Range;
+
 use pulp::Simd;
 
 use super::{ForceError, Forces, Planes};
@@ -31,6 +33,14 @@ impl Measure {
     #[inline(always)]
     pub fn virial(&self, element: usize) -> [f64; 3] {
         [2, 3, 4].map(|part| self.planes[part][element])
+    }
+
+    /// The same over consecutive elements.
+    pub fn virial_of(&self, elements: Range<usize>) -> [f64; 3] {
+        [2, 3, 4].map(|part| {
+            let plane = &self.planes[part][elements.clone()];
+            lanes::sum(plane.len(), |element| plane[element])
+        })
     }
 
     /// Makes room for so many elements.

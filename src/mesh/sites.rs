@@ -104,6 +104,11 @@ impl SiteSet {
         self.first[k]..self.first[k] + (self.start[k + 1] - self.start[k]) as i32
     }
 
+    /// Numbers of the sites of a lattice row.
+    pub fn numbers(&self, row: i32) -> Range<usize> {
+        self.start[row as usize]..self.start[row as usize + 1]
+    }
+
     /// Number of a site; `None` if the specimen does not hold it.
     #[inline(always)]
     pub fn index(&self, [column, row]: [i32; 2]) -> Option<usize> {

@@ -19,8 +19,8 @@ pub fn tile(sites: &SiteSet, target: Vec<u16>, breaks: &[i32]) -> Vec<Element> {
         breaks,
         elements: Vec::new(),
     };
-    let mut sizes: Vec<i32> = tiling.target.iter().map(|&size| i32::from(size)).collect();
-    sizes.dedup();
+    let runs = tiling.target.chunk_by(|a, b| a == b);
+    let mut sizes: Vec<i32> = runs.map(|run| i32::from(run[0])).collect();
     sizes.sort_unstable_by(|a, b| b.cmp(a));
     sizes.dedup();
     for &size in sizes.iter().filter(|&&size| size >= SMALLEST_TRIANGLE) {

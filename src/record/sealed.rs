@@ -4,7 +4,7 @@
 //! HDF5 program opens the file as it is. The checksum is verified before HDF5 sees a byte: a damaged file never
 //! reaches the library.
 
-use std::fs::{self, OpenOptions};
+use std::fs::{File, OpenOptions};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
@@ -14,6 +14,9 @@ use super::{RecordError, aside, file};
 
 /// Length of the header, bytes; the smallest user block of HDF5.
 const HEADER: usize = 512;
+
+/// What is read at a time, bytes.
+const BLOCK: usize = 1 << 18;
 
 /// What a sealed file says it is.
 #[derive(Clone, Copy)]
@@ -36,8 +39,15 @@ pub(super) fn write(path: &Path, seal: Seal, fill: impl FnOnce(&Group) -> hdf5::
 
 /// Opens a file that `write` made, once its seal is verified.
 pub(super) fn open(path: &Path, seal: Seal) -> Result<hdf5::File, RecordError> {
-    let bytes = fs::read(path).map_err(|cause| RecordError::reading(path, &cause))?;
-    seal.verify(path, &bytes)?;
+    let reading = |cause| RecordError::reading(path, &cause);
+    let mut file = File::open(path).map_err(reading)?;
+    let mut header = Vec::with_capacity(HEADER);
+    (&mut file)
+        .take(HEADER as u64)
+        .read_to_end(&mut header)
+        .map_err(reading)?;
+    let body = |identity: &str| checksum(identity, &mut file).map_err(reading);
+    seal.verify(path, &header, body)?;
     file::open(path).map_err(|cause| RecordError::cannot_read(path, cause))
 }
 
@@ -50,11 +60,9 @@ fn fill_hdf5(path: &Path, fill: impl FnOnce(&Group) -> hdf5::Result<()>) -> hdf5
 impl Seal<'_> {
     fn sign(self, path: &Path) -> std::io::Result<()> {
         let mut file = OpenOptions::new().read(true).write(true).open(path)?;
-        let mut body = Vec::new();
         file.seek(SeekFrom::Start(HEADER as u64))?;
-        file.read_to_end(&mut body)?;
         let identity = self.identity();
-        let mut header = format!("{identity}{}\n", checksum(&identity, &body)).into_bytes();
+        let mut header = format!("{identity}{}\n", checksum(&identity, &mut file)?).into_bytes();
         if header.len() > HEADER {
             return Err(std::io::Error::other(format!(
                 "the case id `{}` is too long",
@@ -66,7 +74,13 @@ impl Seal<'_> {
         file.write_all(&header)
     }
 
-    fn verify(self, path: &Path, bytes: &[u8]) -> Result<(), RecordError> {
+    /// `sum` gives the checksum of what follows the header.
+    fn verify(
+        self,
+        path: &Path,
+        bytes: &[u8],
+        sum: impl FnOnce(&str) -> Result<String, RecordError>,
+    ) -> Result<(), RecordError> {
         let not_ours = || RecordError::NotOurs {
             path: path.to_owned(),
             expected: self.kind,
@@ -81,11 +95,13 @@ impl Seal<'_> {
                 not_ours()
             });
         }
-        let (header, body) = bytes.split_at_checked(HEADER).ok_or_else(cut_short)?;
-        let mut lines = header
+        if bytes.len() < HEADER {
+            return Err(cut_short());
+        }
+        let mut lines = bytes
             .split_inclusive(|byte| *byte == b'\n')
             .map(String::from_utf8_lossy);
-        let [first, case, sum] = std::array::from_fn(|_| lines.next().unwrap_or_default());
+        let [first, case, signed] = std::array::from_fn(|_| lines.next().unwrap_or_default());
 
         let format = first[title.len()..].trim_end();
         if format != self.format.to_string() {
@@ -97,7 +113,7 @@ impl Seal<'_> {
                 readable,
             });
         }
-        if sum.trim_end() != checksum(&format!("{first}{case}"), body) {
+        if signed.trim_end() != sum(&format!("{first}{case}"))? {
             return Err(RecordError::damaged(path, "its checksum does not match its content"));
         }
         let case = case.trim_start_matches("case ").trim_end();
@@ -117,8 +133,15 @@ impl Seal<'_> {
     }
 }
 
-fn checksum(identity: &str, body: &[u8]) -> String {
+fn checksum(identity: &str, mut body: impl Read) -> std::io::Result<String> {
     let mut hasher = blake3::Hasher::new();
-    hasher.update(identity.as_bytes()).update(body);
-    format!("blake3 {}", hasher.finalize())
+    hasher.update(identity.as_bytes());
+    let mut block = vec![0; BLOCK];
+    loop {
+        match body.read(&mut block)? {
+            0 => break,
+            length => hasher.update(&block[..length]),
+        };
+    }
+    Ok(format!("blake3 {}", hasher.finalize()))
 }

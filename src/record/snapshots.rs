@@ -1,5 +1,6 @@
 //! The pictures of a run that goes on: a small sealed file each, in full precision and internal units.
 
+use std::borrow::Cow;
 use std::path::Path;
 
 use hdf5::Group;
@@ -10,9 +11,46 @@ use super::frames::Frame;
 use super::pieces::frame_path;
 use super::sealed::{self, Seal};
 
+/// What a picture is made of, field by field, so that no more than one of them need be in memory.
+pub trait Picture {
+    /// Step, time (ps) and nominal strain.
+    fn moment(&self) -> (u64, f64, f64);
+    /// A node: displacement (nm).
+    fn displacement(&self) -> Cow<'_, [[f64; 2]]>;
+    /// A node: velocity (nm/ps).
+    fn velocity(&self) -> Cow<'_, [[f64; 2]]>;
+    /// A cell: virial stress xx, yy, xy, eV/nm^3.
+    fn stress(&self) -> Cow<'_, [[f64; 3]]>;
+    /// A cell: share of the reference bonds of its sites that are broken, 0 to 1.
+    fn damage(&self) -> Cow<'_, [f64]>;
+}
+
+impl Picture for Frame {
+    fn moment(&self) -> (u64, f64, f64) {
+        (self.step, self.time, self.strain)
+    }
+
+    fn displacement(&self) -> Cow<'_, [[f64; 2]]> {
+        Cow::Borrowed(&self.displacement)
+    }
+
+    fn velocity(&self) -> Cow<'_, [[f64; 2]]> {
+        Cow::Borrowed(&self.velocity)
+    }
+
+    fn stress(&self) -> Cow<'_, [[f64; 3]]> {
+        Cow::Borrowed(&self.stress)
+    }
+
+    fn damage(&self) -> Cow<'_, [f64]> {
+        Cow::Borrowed(&self.damage)
+    }
+}
+
 /// Writes one picture of the run.
-pub fn write_frame(dir: &Path, frame: &Frame) -> Result<(), RecordError> {
-    sealed::write(&frame_path(dir, frame.step), FRAME, |group| put_frame(group, frame))
+pub fn write_frame(dir: &Path, picture: &impl Picture) -> Result<(), RecordError> {
+    let (step, ..) = picture.moment();
+    sealed::write(&frame_path(dir, step), FRAME, |group| put_picture(group, picture))
 }
 
 pub(super) fn read_frame(path: &Path) -> Result<Frame, RecordError> {
@@ -26,45 +64,21 @@ const FRAME: Seal = Seal {
     case_id: "",
 };
 
-fn put_frame(group: &Group, frame: &Frame) -> hdf5::Result<()> {
-    let Frame {
-        step,
-        time,
-        strain,
-        displacement,
-        velocity,
-        stress,
-        damage,
-    } = frame;
-    put_scalar(group, "step", "1", *step)?;
-    put_scalar(group, "time", "ps", *time)?;
-    put_scalar(group, "strain", "1", *strain)?;
-    let (nodes, cells) = (displacement.len(), stress.len());
-    put(
-        group,
-        "displacement",
-        "nm",
-        &[nodes, 2],
-        displacement.as_flattened(),
-        Packing::Plain,
-    )?;
-    put(
-        group,
-        "velocity",
-        "nm/ps",
-        &[nodes, 2],
-        velocity.as_flattened(),
-        Packing::Plain,
-    )?;
-    put(
-        group,
-        "stress",
-        "eV/nm^3",
-        &[cells, 3],
-        stress.as_flattened(),
-        Packing::Plain,
-    )?;
-    put(group, "damage", "1", &[cells], damage, Packing::Plain)
+fn put_picture(group: &Group, picture: &impl Picture) -> hdf5::Result<()> {
+    let (step, time, strain) = picture.moment();
+    put_scalar(group, "step", "1", step)?;
+    put_scalar(group, "time", "ps", time)?;
+    put_scalar(group, "strain", "1", strain)?;
+    put_rows(group, "displacement", "nm", &picture.displacement())?;
+    put_rows(group, "velocity", "nm/ps", &picture.velocity())?;
+    put_rows(group, "stress", "eV/nm^3", &picture.stress())?;
+    let damage = picture.damage();
+    put(group, "damage", "1", &[damage.len()], &damage, Packing::Plain)
+}
+
+fn put_rows<const WIDTH: usize>(group: &Group, name: &str, unit: &str, rows: &[[f64; WIDTH]]) -> hdf5::Result<()> {
+    let shape = [rows.len(), WIDTH];
+    put(group, name, unit, &shape, rows.as_flattened(), Packing::Plain)
 }
 
 fn get_frame(group: &Group) -> hdf5::Result<Frame> {

@@ -1,5 +1,6 @@
 //! Writes what a solver gives into the folder of its run.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
 use super::RunCaseError;
@@ -7,8 +8,8 @@ use crate::analysis::series::Series;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
-use crate::record::frames::{FieldMesh, Frame};
-use crate::record::{self, CHECKPOINT_FILE, RecordError};
+use crate::record::frames::FieldMesh;
+use crate::record::{self, CHECKPOINT_FILE, Picture, RecordError};
 use crate::solver::checkpoint::Checkpoint;
 use crate::solver::{self, Cost, Moment, Observer, Progress, Reading, Solver, site_volume};
 use crate::store::{Account, Phase};
@@ -61,35 +62,52 @@ impl<'a> Recorder<'a> {
     pub fn total_cost(&self, cost: &Cost) -> Vec<Phase> {
         self.account.total(&phases(cost))
     }
+}
 
-    fn frame(&self, moment: &Moment) -> Frame {
-        let Moment {
-            mesh, state, measure, ..
-        } = moment;
-        let reference = mesh
-            .elements
-            .iter()
-            .flat_map(Element::corners)
-            .map(|site| mesh.reference(site));
-        let displacement = reference.zip(&state.position[0]).zip(&state.position[1]);
+/// A moment as a picture shows it.
+struct Snapshot<'a> {
+    moment: &'a Moment<'a>,
+    site_volume: f64,
+}
+
+impl Picture for Snapshot<'_> {
+    fn moment(&self) -> (u64, f64, f64) {
+        (self.moment.step, self.moment.time, self.moment.strain)
+    }
+
+    fn displacement(&self) -> Cow<'_, [[f64; 2]]> {
+        let Moment { mesh, state, .. } = self.moment;
+        let [x, y] = &state.position;
+        let sites = mesh.elements.iter().flat_map(Element::corners);
+        let reference = sites.map(|site| mesh.reference(site));
+        let displacement = reference.zip(x).zip(y).map(|((then, x), y)| [x - then[0], y - then[1]]);
+        Cow::Owned(collected(state.nodes(), displacement))
+    }
+
+    fn velocity(&self) -> Cow<'_, [[f64; 2]]> {
+        let [x, y] = &self.moment.state.velocity;
+        Cow::Owned(x.iter().zip(y).map(|(&x, &y)| [x, y]).collect())
+    }
+
+    fn stress(&self) -> Cow<'_, [[f64; 3]]> {
+        let Moment { mesh, measure, .. } = self.moment;
         let stress = mesh.elements.iter().enumerate().map(|(number, element)| {
             let volume = element.site_count() as f64 * self.site_volume;
             measure.virial(number).map(|component| component / volume)
         });
-        Frame {
-            step: moment.step,
-            time: moment.time,
-            strain: moment.strain,
-            displacement: displacement.map(|((then, x), y)| [x - then[0], y - then[1]]).collect(),
-            velocity: state.velocity[0]
-                .iter()
-                .zip(&state.velocity[1])
-                .map(|(&x, &y)| [x, y])
-                .collect(),
-            stress: stress.collect(),
-            damage: damage(mesh, moment.broken),
-        }
+        Cow::Owned(stress.collect())
     }
+
+    fn damage(&self) -> Cow<'_, [f64]> {
+        Cow::Owned(damage(self.moment.mesh, self.moment.broken))
+    }
+}
+
+/// So many items without a gap in memory behind them.
+fn collected<T>(count: usize, items: impl Iterator<Item = T>) -> Vec<T> {
+    let mut collected = Vec::with_capacity(count);
+    collected.extend(items);
+    collected
 }
 
 impl Observer for Recorder<'_> {
@@ -104,7 +122,11 @@ impl Observer for Recorder<'_> {
     }
 
     fn snapshot(&mut self, moment: &Moment) -> Result<(), RunCaseError> {
-        Ok(record::write_frame(&self.folder, &self.frame(moment))?)
+        let snapshot = Snapshot {
+            moment,
+            site_volume: self.site_volume,
+        };
+        Ok(record::write_frame(&self.folder, &snapshot)?)
     }
 
     fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), RunCaseError> {
@@ -155,11 +177,9 @@ fn damage(mesh: &Mesh, broken: &[[i32; 3]]) -> Vec<f64> {
             }
         }
     }
+    let shares = count.iter_mut().zip(&mesh.elements);
+    shares.for_each(|(broken, element)| *broken /= bonds_of(element));
     count
-        .iter()
-        .zip(&mesh.elements)
-        .map(|(broken, element)| broken / bonds_of(element))
-        .collect()
 }
 
 /// Nearest-neighbour bonds that touch the sites of an element: six a site, those inside counted once.

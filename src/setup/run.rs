@@ -84,22 +84,23 @@ fn compute(
         Err(RunError::Output(error)) => return Err(error),
         Err(RunError::Physics(error)) => {
             recorder.flush()?;
-            publish(&solver, into, &id)?;
+            publish(solver, into, &id)?;
             return Err(RunCaseError::Physics(error, into.display().to_string()));
         }
     };
-    if ending != Ending::Interrupted {
-        publish(&solver, into, &id)?;
-    }
     let [time_step, stability_limit] = solver.time_step();
-    Ok(Finished {
+    let finished = Finished {
         ending,
         steps: solver.step_count(),
         time_step,
         stability_limit,
         energy_error: solver.ledger().relative_error(),
         cost: recorder.total_cost(&solver.cost()),
-    })
+    };
+    if ending != Ending::Interrupted {
+        publish(solver, into, &id)?;
+    }
+    Ok(finished)
 }
 
 /// Goes back to the folder's checkpoint, and removes what was recorded after it.
@@ -130,7 +131,10 @@ fn start_afresh(into: &Path, why: &dyn Error, warn: &mut (dyn FnMut(&str) + Send
     Ok(record::cut_back(into, None)?)
 }
 
-fn publish(solver: &Solver, into: &Path, id: &str) -> Result<(), RecordError> {
-    record::publish_series(into, id, solver.setting())?;
-    record::publish_fields(into, id, &field_mesh(solver))
+/// Ends a solver: what publishing takes of memory must not come on top of its own.
+fn publish(solver: Solver, into: &Path, id: &str) -> Result<(), RecordError> {
+    let (setting, mesh) = (solver.setting().clone(), field_mesh(&solver));
+    drop(solver);
+    record::publish_series(into, id, &setting)?;
+    record::publish_fields(into, id, &mesh)
 }

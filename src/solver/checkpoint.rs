@@ -1,5 +1,9 @@
 //! Everything a run needs to go on, bit for bit, as if it had never stopped.
 
+use std::mem::swap;
+
+use crate::state::State;
+
 /// State of a run between two steps. Internal units (nm, ps, eV).
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Checkpoint {
@@ -32,4 +36,12 @@ pub struct Checkpoint {
     /// Time at which the crack last advanced, ps, and the farthest tip, nm; for the stop at arrest.
     pub last_advance: f64,
     pub farthest_tip: f64,
+}
+
+impl Checkpoint {
+    /// Exchanges positions and velocities with a state.
+    pub(super) fn lend(&mut self, state: &mut State) {
+        swap(&mut self.position, &mut state.position);
+        swap(&mut self.velocity, &mut state.velocity);
+    }
 }

@@ -89,7 +89,7 @@ impl JIntegral {
         let near = |&number: &u32| {
             let element = &mesh.elements[number as usize];
             let anchor = mesh.reference([element.column, element.row]);
-            rings.reach(anchor) <= f64::from(element.size + largest) * mesh.spacing
+            rings.are_within(f64::from(element.size + largest) * mesh.spacing, anchor)
         };
         self.touched
             .iter()

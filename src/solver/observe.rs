@@ -16,8 +16,8 @@ impl Solver {
         if !probe && !snapshot {
             return Ok(());
         }
-        self.settle();
         let mut clock = Instant::now();
+        self.settle();
         if !self.measured {
             self.compute(true).map_err(|source| self.blow_up(source))?;
         }
@@ -89,7 +89,7 @@ impl Solver {
         let measure = &self.measure;
         let kinetic = self.state.kinetic_energy();
         let balance = self.ledger.balance(measure, kinetic);
-        let [sigma_xx, sigma_yy, sigma_xy] = probe::average_stress(self.forces.mesh(), measure, &self.setting);
+        let [sigma_xx, sigma_yy, sigma_xy] = self.interior.average_stress(measure, &self.setting);
         let area = self.setting.length * self.setting.thickness;
         Probe {
             step: self.step,

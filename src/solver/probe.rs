@@ -1,22 +1,44 @@
 //! What a probe reads off a moment.
 
+use std::ops::Range;
+
 use crate::analysis::series::{BondEvent, Setting};
 use crate::forces::Measure;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
 
-/// Average virial stress xx, yy, xy between the grips, eV/nm^3, over the reference area.
-pub fn average_stress(mesh: &Mesh, measure: &Measure, setting: &Setting) -> [f64; 3] {
-    let mut sum = [0.0; 3];
-    let mut sites = 0;
-    for (number, element) in mesh.elements.iter().enumerate() {
-        if mesh.grip_of(element) == 0 {
-            let virial = measure.virial(number);
-            sites += element.site_count();
-            (0..3).for_each(|k| sum[k] += virial[k]);
+/// The elements between the grips.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Interior {
+    /// Consecutive ones together.
+    runs: Vec<Range<usize>>,
+    sites: usize,
+}
+
+impl Interior {
+    pub fn new(mesh: &Mesh) -> Self {
+        let mut interior = Self {
+            runs: Vec::new(),
+            sites: 0,
+        };
+        for (number, element) in mesh.elements.iter().enumerate() {
+            if mesh.grip_of(element) == 0 {
+                interior.sites += element.site_count();
+                match interior.runs.last_mut().filter(|run| run.end == number) {
+                    Some(run) => run.end += 1,
+                    None => interior.runs.push(number..number + 1),
+                }
+            }
         }
+        interior
     }
-    sum.map(|virial| virial / (sites as f64 * site_volume(setting)))
+
+    /// Average virial stress xx, yy, xy, eV/nm^3, over the reference area.
+    pub fn average_stress(&self, measure: &Measure, setting: &Setting) -> [f64; 3] {
+        let sums = self.runs.iter().map(|run| measure.virial_of(run.clone()));
+        let sum = sums.fold([0.0; 3], |sum, part| [0, 1, 2].map(|k| sum[k] + part[k]));
+        sum.map(|virial| virial / (self.sites as f64 * site_volume(setting)))
+    }
 }
 
 /// Reference area of a site times the thickness, nm^3.

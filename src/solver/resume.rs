@@ -3,18 +3,28 @@
 use super::checkpoint::Checkpoint;
 use super::{Solver, SolverError, probe};
 use crate::analysis::crack::Tracker;
+use crate::forces::Planes;
 use crate::lattice::triangular;
 
 impl Solver {
     /// Everything that a later run needs to go on from here.
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
+            position: self.state.position.clone(),
+            velocity: self.state.velocity.clone(),
+            ..self.checkpoint_without_motion()
+        }
+    }
+
+    /// The same with no positions and velocities.
+    pub(super) fn checkpoint_without_motion(&self) -> Checkpoint {
+        Checkpoint {
             step: self.step,
             time: self.time,
             time_step: self.time_step,
             stability_limit: self.stability_limit,
-            position: self.state.position.clone(),
-            velocity: self.state.velocity.clone(),
+            position: Planes::default(),
+            velocity: Planes::default(),
             open_interfaces: self.forces.open_interfaces(),
             start: self.ledger.start(),
             work: self.ledger.work(),

@@ -54,8 +54,10 @@ impl Rings {
         })
     }
 
-    /// How far a place lies outside the rings; negative inside.
-    pub(super) fn reach(&self, place: [f64; 2]) -> f64 {
-        (place[0] - self.tip[0]).hypot(place[1] - self.tip[1]) - self.squared[RINGS].sqrt()
+    /// Whether a place is no farther outside the rings than a distance.
+    pub(super) fn are_within(&self, distance: f64, place: [f64; 2]) -> bool {
+        let [x, y] = [place[0] - self.tip[0], place[1] - self.tip[1]];
+        let reach = self.squared[RINGS].sqrt() + distance;
+        x * x + y * y <= reach * reach
     }
 }
