@@ -40,6 +40,7 @@ use gauges::Gauges;
 use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
 use schedule::Schedule;
+use temperature::Thermometer;
 
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -121,6 +122,7 @@ pub struct Solver {
     interior: Interior,
     profile: ProfileLine,
     gauges: Gauges,
+    thermometer: Thermometer,
     j_integral: JIntegral,
     step: u64,
     time: f64,
@@ -162,6 +164,7 @@ impl Solver {
         let interior = Interior::new(&mesh);
         let profile = ProfileLine::new(&mesh, &setting);
         let gauges = Gauges::new(&mesh, &setting);
+        let thermometer = Thermometer::new(&mesh);
         let j_integral = JIntegral::new(&mesh, material);
         let tracker = Tracker::new(&setting);
         let mut forces = Forces::with_summation(mesh, material, settings.summation);
@@ -188,6 +191,7 @@ impl Solver {
             interior,
             profile,
             gauges,
+            thermometer,
             j_integral,
             step: 0,
             time: 0.0,

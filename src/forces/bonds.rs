@@ -47,14 +47,16 @@ impl Forces {
         let limit = self.material.breaking_length().powi(2);
         let shape = &mesh.elements[element];
         let mut broken = Vec::new();
-        for local in shape.locals() {
-            let site = shape.site(local);
-            for (direction, vector) in triangular::NEAREST.iter().enumerate() {
+        for (direction, vector) in triangular::NEAREST.iter().enumerate() {
+            let mut last = None;
+            for local in shape.locals() {
+                let site = shape.site(local);
                 let neighbour = [site[0] + vector[0], site[1] + vector[1]];
                 if shape.contains(neighbour) {
                     continue;
                 }
-                let Some(other) = mesh.owner_of(neighbour) else {
+                last = mesh.owner_beside(neighbour, last);
+                let Some(other) = last else {
                     continue;
                 };
                 if mesh.severed(site, neighbour) || self.is_intact_between(element, other) {

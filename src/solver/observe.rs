@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::j_integral::Rings;
-use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe, temperature};
+use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe};
 use crate::analysis::crack::Tracker;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
@@ -103,7 +103,7 @@ impl Solver {
             potential: balance.potential,
             work: balance.work,
             cutoff_release: balance.cutoff_release,
-            temperature: temperature::kinetic_temperature(self.forces.mesh(), &self.state),
+            temperature: self.thermometer.read(&self.state),
             j_integral: self.j_integral(),
         }
     }

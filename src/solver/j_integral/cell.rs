@@ -65,11 +65,12 @@ impl BondTable {
             let count = element.locals().filter(|&local| element.contains(ends(local, vector)));
             (arm(vector), count.count() as f64)
         });
-        let leaving = element.locals().flat_map(|local| {
-            let vectors = triangular::vectors_within(reach).into_iter();
-            vectors
-                .filter(move |&vector| !element.contains(ends(local, vector)))
-                .map(move |vector| (local, vector))
+        // By vector, so that those that follow each other mostly lead to the same element.
+        let leaving = triangular::vectors_within(reach).into_iter().flat_map(|vector| {
+            let starts = element.locals();
+            starts
+                .filter(move |&local| !element.contains(ends(local, vector)))
+                .map(move |local| (local, vector))
         });
         Self {
             size,
@@ -160,10 +161,12 @@ impl Field<'_> {
             let ends = [[0, 0], arm.local].map(|local| interpolate(nodes, size, local));
             cell.add(self.material, arm, sign, *count, &ends);
         }
+        let mut last = None;
         for (local, arm) in &table.leaving {
             let site = element.site(*local);
             let other_site = element.site([local[0] + arm.local[0], local[1] + arm.local[1]]);
-            let Some(other) = self.mesh.owner_of(other_site) else {
+            last = self.mesh.owner_beside(other_site, last);
+            let Some(other) = last else {
                 continue;
             };
             if self.mesh.severed(site, other_site) {
