@@ -1,6 +1,6 @@
 //! Time of one step, in represented atoms a second: `cargo bench`.
 
-use cgaft::forces::{Forces, Summation};
+use cgaft::forces::{Forces, Measure, Summation};
 use cgaft::loading::{Grip, Stretching};
 use cgaft::material::Material;
 use cgaft::mesh::sites::Layout;
@@ -69,14 +69,18 @@ fn step(bencher: Bencher, element: u16) {
 }
 
 #[divan::bench(args = [1, 10])]
-fn energy_and_stress(bencher: Bencher, element: u16) {
+fn forces_energy_and_stress(bencher: Bencher, element: u16) {
     let mesh = slab(element);
     let position = mesh.node_positions();
+    let mut force = mesh.node_positions();
     let atoms = mesh.sites.len();
     let mut forces = Forces::new(mesh, material());
-    bencher
-        .counter(ItemsCount::new(atoms))
-        .bench_local(|| forces.measure(&position).expect("the lattice is sound"));
+    let mut measure = Measure::default();
+    bencher.counter(ItemsCount::new(atoms)).bench_local(|| {
+        forces
+            .compute_and_measure(&position, &mut force, &mut measure)
+            .expect("the lattice is sound");
+    });
 }
 
 #[divan::bench(args = [1, 10])]

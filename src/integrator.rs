@@ -35,37 +35,52 @@ fn advance(state: &mut State, kicks: u32, kick: f64, drift: Option<f64>) {
         coupling,
         ..
     } = state;
-    for axis in 0..2 {
-        let positions = position[axis].par_chunks_mut(3 * CHUNK);
-        let velocities = velocity[axis].par_chunks_mut(3 * CHUNK);
-        let forces = force[axis].par_chunks(3 * CHUNK);
-        let mobilities = mobility[axis].par_chunks(3 * CHUNK);
-        let planes = positions.zip(velocities).zip(forces.zip(mobilities)).enumerate();
-        planes.for_each(|(chunk, ((position, velocity), (force, mobility)))| {
-            let first = coupling.len().min(chunk * CHUNK);
-            let coupling = &coupling[first..coupling.len().min((chunk + 1) * CHUNK)];
-            let nodes = 3 * coupling.len();
-            Arch::new().dispatch(|| {
-                for _ in 0..kicks {
-                    kick_coupled(
-                        &mut velocity[..nodes],
-                        &force[..nodes],
-                        &mobility[..nodes],
-                        coupling,
-                        kick,
-                    );
-                    let single = velocity[nodes..]
-                        .iter_mut()
-                        .zip(&force[nodes..])
-                        .zip(&mobility[nodes..]);
-                    single.for_each(|((v, f), mobility)| *v += kick * mobility * f);
-                }
-                if let Some(time) = drift {
-                    position.iter_mut().zip(&*velocity).for_each(|(x, v)| *x += time * v);
-                }
-            });
+    let [position_x, position_y] = position;
+    let [velocity_x, velocity_y] = velocity;
+    let along_x = tasks(position_x, velocity_x, &force[0], &mobility[0]);
+    let along_y = tasks(position_y, velocity_y, &force[1], &mobility[1]);
+    // Both axes at once, so that threads wait for each other only once.
+    along_x.chain(along_y).for_each(|(chunk, (moved, (force, mobility)))| {
+        let (position, velocity) = moved;
+        let first = coupling.len().min(chunk * CHUNK);
+        let coupling = &coupling[first..coupling.len().min((chunk + 1) * CHUNK)];
+        let nodes = 3 * coupling.len();
+        Arch::new().dispatch(|| {
+            for _ in 0..kicks {
+                kick_coupled(
+                    &mut velocity[..nodes],
+                    &force[..nodes],
+                    &mobility[..nodes],
+                    coupling,
+                    kick,
+                );
+                let single = velocity[nodes..]
+                    .iter_mut()
+                    .zip(&force[nodes..])
+                    .zip(&mobility[nodes..]);
+                single.for_each(|((v, f), mobility)| *v += kick * mobility * f);
+            }
+            if let Some(time) = drift {
+                position.iter_mut().zip(&*velocity).for_each(|(x, v)| *x += time * v);
+            }
         });
-    }
+    });
+}
+
+type Task<'a> = (usize, ((&'a mut [f64], &'a mut [f64]), (&'a [f64], &'a [f64])));
+
+/// The motion along one axis, nodes in tasks.
+fn tasks<'a>(
+    position: &'a mut [f64],
+    velocity: &'a mut [f64],
+    force: &'a [f64],
+    mobility: &'a [f64],
+) -> impl IndexedParallelIterator<Item = Task<'a>> {
+    let positions = position.par_chunks_mut(3 * CHUNK);
+    let velocities = velocity.par_chunks_mut(3 * CHUNK);
+    let forces = force.par_chunks(3 * CHUNK);
+    let mobilities = mobility.par_chunks(3 * CHUNK);
+    positions.zip(velocities).zip(forces.zip(mobilities)).enumerate()
 }
 
 /// Triangles whose nodes have coupled masses.

@@ -210,3 +210,22 @@ impl<S: Simd> Mul<f64> for Lanes<S> {
         self * Self::all(self.simd, factor)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_sum_takes_every_term_once_and_has_the_same_bits_on_any_number_of_threads() {
+        for count in [0, 1, MOST, BLOCK - 3, BLOCK, 3 * BLOCK + MOST + 5] {
+            let whole = (count * count.saturating_sub(1) / 2) as f64;
+            assert_eq!(sum(count, |k| k as f64), whole);
+            let on = |threads: usize| {
+                let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+                pool.expect("threads can be started")
+                    .install(|| sum(count, |k| (k as f64).sqrt()))
+            };
+            assert_eq!(on(1).to_bits(), on(3).to_bits());
+        }
+    }
+}

@@ -38,23 +38,20 @@ impl Maps {
 
     /// Follows the nodes.
     pub fn update(&mut self, position: &Planes) {
-        let edge = &self.edge;
         let [origin_x, origin_y, first_x, first_y, second_x, second_y] = &mut self.planes;
-        let axes = [(origin_x, first_x, second_x), (origin_y, first_y, second_y)];
-        for ((origin, first, second), nodes) in axes.into_iter().zip(position) {
-            origin
-                .par_chunks_mut(CHUNK)
-                .zip(first.par_chunks_mut(CHUNK))
-                .zip(second.par_chunks_mut(CHUNK))
-                .zip(edge.par_chunks(CHUNK).zip(nodes.par_chunks(3 * CHUNK)))
-                .for_each(|(((origin, first), second), (edge, nodes))| {
-                    for (k, corner) in nodes.chunks_exact(3).take(edge.len()).enumerate() {
-                        origin[k] = corner[0];
-                        first[k] = (corner[1] - corner[0]) * edge[k];
-                        second[k] = (corner[2] - corner[0]) * edge[k];
-                    }
-                });
-        }
+        let [x, y] = position;
+        let along_x = tasks([origin_x, first_x, second_x], &self.edge, x);
+        let along_y = tasks([origin_y, first_y, second_y], &self.edge, y);
+        // Both axes at once, so that threads wait for each other only once.
+        along_x
+            .chain(along_y)
+            .for_each(|(((origin, first), second), (edge, nodes))| {
+                for (k, corner) in nodes.chunks_exact(3).take(edge.len()).enumerate() {
+                    origin[k] = corner[0];
+                    first[k] = (corner[1] - corner[0]) * edge[k];
+                    second[k] = (corner[2] - corner[0]) * edge[k];
+                }
+            });
     }
 
     /// The maps of consecutive triangles from one on; beyond the last one they mean nothing.
@@ -67,6 +64,21 @@ impl Maps {
             along: [[load(a), load(b)], [load(c), load(d)]],
         }
     }
+}
+
+type Task<'a> = (((&'a mut [f64], &'a mut [f64]), &'a mut [f64]), (&'a [f64], &'a [f64]));
+
+/// The maps along one axis, triangles in tasks.
+fn tasks<'a>(
+    [origin, first, second]: [&'a mut Vec<f64>; 3],
+    edge: &'a [f64],
+    nodes: &'a [f64],
+) -> impl IndexedParallelIterator<Item = Task<'a>> {
+    origin
+        .par_chunks_mut(CHUNK)
+        .zip(first.par_chunks_mut(CHUNK))
+        .zip(second.par_chunks_mut(CHUNK))
+        .zip(edge.par_chunks(CHUNK).zip(nodes.par_chunks(3 * CHUNK)))
 }
 
 impl<L: Simd> MapLanes<L> {

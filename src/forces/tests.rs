@@ -2,7 +2,7 @@ use super::*;
 use crate::mesh::Plan;
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::Layout;
-use crate::potential::{AtCutoff, Interaction, LennardJones};
+use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
 use crate::state::State as Motion;
 
 /// A cracked slab of triangles and atoms, and positions in which some of it is torn.

@@ -60,9 +60,15 @@ fn append(series: &mut Series, first_probe: u64, mut part: Series) -> Result<(),
     }
     series.profile_x = part.profile_x;
     series.gauge_places = part.gauge_places;
-    series.probes.append(&mut part.probes);
-    series.profiles.append(&mut part.profiles);
-    series.gauges.append(&mut part.gauges);
-    series.bonds.append(&mut part.bonds);
+    append_all(&mut series.probes, &mut part.probes);
+    append_all(&mut series.profiles, &mut part.profiles);
+    append_all(&mut series.gauges, &mut part.gauges);
+    append_all(&mut series.bonds, &mut part.bonds);
     Ok(())
+}
+
+/// With no more memory than the rows need: the profiles of a long run are large.
+fn append_all<T>(rows: &mut Vec<T>, more: &mut Vec<T>) {
+    rows.reserve_exact(more.len());
+    rows.append(more);
 }

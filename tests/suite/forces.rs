@@ -88,10 +88,8 @@ fn bonds_that_a_small_compression_brings_within_a_long_cutoff_are_found() {
     let spacing = lennard_jones(12.0, AtCutoff::Truncated).spacing;
     let material = lennard_jones(MANY_SHELLS * spacing, AtCutoff::Truncated);
     // Without a crack, next to which all interfaces are tested one by one.
-    let mesh = Mesh {
-        cut: None,
-        ..slab(10, vec![], material.spacing)
-    };
+    let mut mesh = slab(10, vec![], material.spacing);
+    mesh.cut = None;
     let compressed = displaced(&mesh, |[x, y]| [-0.0295 * x, -0.0295 * y]);
     check_against_referee(&mesh, &material, &compressed, Summation::Exact, "compressed");
 }
@@ -133,10 +131,8 @@ const CONVERGENCE: f64 = 0.125;
 fn gauss_points_converge_on_the_sum_over_all_bonds() {
     // [Deng2011] Eq. (3-31)
     let material = lennard_jones(1.9, AtCutoff::Smooth { from: 1.5 });
-    let mesh = Mesh {
-        cut: None,
-        ..slab(20, vec![], material.spacing)
-    };
+    let mut mesh = slab(20, vec![], material.spacing);
+    mesh.cut = None;
     let bent = displaced(&mesh, |[x, y]| [2e-4 * x * y, 1e-2 * y - 2e-4 * x * x]);
     let energy = |summation| {
         let mut forces = Forces::with_summation(mesh.clone(), material, summation);

@@ -285,9 +285,10 @@ fn an_affine_strain_leaves_no_force_inside_any_mesh() {
 /// Largest force over a bond's strength on a node all of whose bonds are inside the specimen, on uniform and mixed meshes.
 fn force_left_by_an_affine_strain(material: &Material, summation: Summation) -> f64 {
     let uniform = [1, 4, 7, 10, 13, 20].map(|n| block_mesh(10, 8, 15, n, material.spacing));
-    let mixed = all_meshes(material.spacing)
-        .into_iter()
-        .map(|(_, mesh)| Mesh { cut: None, ..mesh });
+    let mixed = all_meshes(material.spacing).into_iter().map(|(_, mut mesh)| {
+        mesh.cut = None;
+        mesh
+    });
     let [mut worst, mut looked_at] = [0.0f64, 0.0];
     for mesh in uniform.into_iter().chain(mixed) {
         let position = displaced(&mesh, |[x, y]| [0.01 * x + 0.004 * y, -0.003 * x + 0.015 * y]);

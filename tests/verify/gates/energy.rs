@@ -19,11 +19,11 @@ const ENERGY_ROUNDING: f64 = 1e-12;
 const SAMPLES: usize = 6;
 
 /// In the perfect lattice the faces of a cut just touch, and the energy has no second derivative there.
-fn without_touching_faces(mesh: Mesh, state: &str) -> Mesh {
-    match state {
-        "intact" => Mesh { cut: None, ..mesh },
-        _ => mesh,
+fn without_touching_faces(mut mesh: Mesh, state: &str) -> Mesh {
+    if state == "intact" {
+        mesh.cut = None;
     }
+    mesh
 }
 
 fn force_of(mesh: &Mesh, material: &Material, summation: Summation, position: &Planes) -> Planes {
