@@ -2,6 +2,8 @@
 //!
 //! [Deng2011] Fig. 4-5 and Eq. (3-34): half a kick, a drift, new forces, half a kick.
 
+use std::ops::Range;
+
 use pulp::Arch;
 use rayon::prelude::*;
 
@@ -10,23 +12,26 @@ use crate::state::State;
 /// Triangles in one parallel task.
 const CHUNK: usize = 1024;
 
-/// Advances the velocities by the forces over a time.
+/// Advances the velocities of ranges of nodes by the forces over a time.
 ///
 /// Coupled masses are a block m ((1 - 3 c) I + c 1 1^T) a triangle, and its inverse takes c times the sum of the three
 /// forces off each before it divides by m (1 - 3 c).
-pub fn kick(state: &mut State, time: f64) {
-    advance(state, 1, time, None);
+pub fn kick(state: &mut State, nodes: &[Range<usize>], time: f64) {
+    nodes.iter().for_each(|nodes| advance(state, nodes, 1, time, None));
 }
 
 /// Advances the velocities by so many equal kicks over half a time each, and with them the positions over the time.
 ///
 /// Between two steps in which nobody looks, two kicks follow each other; together with the drift they pass through the
 /// memory once.
-pub fn kick_and_drift(state: &mut State, kicks: u32, time: f64) {
-    advance(state, kicks, 0.5 * time, Some(time));
+pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], kicks: u32, time: f64) {
+    nodes
+        .iter()
+        .for_each(|nodes| advance(state, nodes, kicks, 0.5 * time, Some(time)));
 }
 
-fn advance(state: &mut State, kicks: u32, kick: f64, drift: Option<f64>) {
+/// A range begins with the first node of an element.
+fn advance(state: &mut State, nodes: &Range<usize>, kicks: u32, kick: f64, drift: Option<f64>) {
     let State {
         position,
         velocity,
@@ -35,15 +40,18 @@ fn advance(state: &mut State, kicks: u32, kick: f64, drift: Option<f64>) {
         coupling,
         ..
     } = state;
-    let [position_x, position_y] = position;
-    let [velocity_x, velocity_y] = velocity;
-    let along_x = tasks(position_x, velocity_x, &force[0], &mobility[0]);
-    let along_y = tasks(position_y, velocity_y, &force[1], &mobility[1]);
+    let coupling = &coupling[coupling.len().min(nodes.start / 3)..];
+    let [position_x, position_y] = position.each_mut().map(|plane| &mut plane[nodes.clone()]);
+    let [velocity_x, velocity_y] = velocity.each_mut().map(|plane| &mut plane[nodes.clone()]);
+    let [force_x, force_y] = force.each_ref().map(|plane| &plane[nodes.clone()]);
+    let [mobility_x, mobility_y] = mobility.each_ref().map(|plane| &plane[nodes.clone()]);
+    let along_x = tasks(position_x, velocity_x, force_x, mobility_x);
+    let along_y = tasks(position_y, velocity_y, force_y, mobility_y);
     // Both axes at once, so that threads wait for each other only once.
     along_x.chain(along_y).for_each(|(chunk, (moved, (force, mobility)))| {
         let (position, velocity) = moved;
         let first = coupling.len().min(chunk * CHUNK);
-        let coupling = &coupling[first..coupling.len().min((chunk + 1) * CHUNK)];
+        let coupling = &coupling[first..coupling.len().min(first + position.len() / 3)];
         let nodes = 3 * coupling.len();
         Arch::new().dispatch(|| {
             for _ in 0..kicks {
@@ -109,9 +117,9 @@ mod tests {
     }
 
     fn step(state: &mut State, time: f64) {
-        kick_and_drift(state, 1, time);
+        kick_and_drift(state, &[0..1], 1, time);
         state.force[0][0] = -state.position[0][0];
-        kick(state, 0.5 * time);
+        kick(state, &[0..1], 0.5 * time);
     }
 
     #[test]

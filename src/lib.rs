@@ -2,6 +2,7 @@
 
 pub mod analysis;
 pub mod cli;
+pub mod domain;
 pub mod executor;
 pub mod export;
 pub mod forces;

@@ -1,0 +1,179 @@
+//! Who computes what: a specimen cut into domains, one a rank, and what ranks tell each other.
+//!
+//! Every rank knows the whole mesh. It computes the forces on its own elements, moves their nodes, and keeps the
+//! positions of those nodes and of its halo, the nodes that its forces depend on, up to date. Elements are numbered row
+//! by row, so a domain is a range of the triangles and a range of the atoms.
+
+#[cfg(not(feature = "mpi"))]
+mod alone;
+mod cut;
+mod halo;
+#[cfg(feature = "mpi")]
+mod mpi;
+
+#[cfg(not(feature = "mpi"))]
+pub use alone::{Ranks, Session, library, start};
+pub use halo::Halo;
+#[cfg(feature = "mpi")]
+pub use mpi::{Ranks, Session, library, start};
+
+use std::ops::Range;
+
+use crate::mesh::Mesh;
+
+/// Why the ranks cannot work together.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum DomainError {
+    #[error(
+        "{0} ranks were started, but this cgaft-solve was built without MPI; build one with `make build`, or start it \
+         without mpirun"
+    )]
+    WithoutMpi(u32),
+    #[error(
+        "{ranks} ranks were started, and each believes to be alone: cgaft-solve was built with {library}, and this mpirun \
+         belongs to another MPI; use the mpirun of {library}, or build cgaft-solve again with the other one"
+    )]
+    OtherMpi { ranks: u32, library: String },
+    #[error("MPI does not let threads call it in turn; use an MPI library with MPI_THREAD_SERIALIZED")]
+    NoThreads,
+}
+
+/// How many ranks an mpirun says that it has started; `None` where there is none.
+fn mpirun_ranks() -> Option<u32> {
+    let told = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE"].map(|name| std::env::var(name).ok()?.parse().ok());
+    told.into_iter().flatten().max()
+}
+
+/// What a rank tells all others when they next agree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Call {
+    /// An interface is no longer what it was.
+    InterfaceChanged = 1,
+    /// A list of neighbours has to be made anew.
+    ListOutdated = 2,
+    /// Somebody asks to stop.
+    Stop = 4,
+    /// It is time for a checkpoint.
+    Checkpoint = 8,
+}
+
+/// The part of a specimen that this rank computes, and those of the others.
+#[derive(Clone, Debug)]
+pub struct Domain {
+    ranks: Ranks,
+    /// Where every rank's triangles start, and their number at the end.
+    triangles: Vec<usize>,
+    /// The same for the atoms, which are counted from 0.
+    atoms: Vec<usize>,
+    /// Calls of this rank that the others have not heard yet, and what has been heard of any.
+    called: u64,
+    heard: u64,
+}
+
+impl Domain {
+    /// Cuts a mesh so that all ranks have equal shares of the costs of its triangles and of those of its atoms.
+    pub fn new(ranks: Ranks, mesh: &Mesh, cost: impl Fn(usize) -> f64) -> Self {
+        let [triangles, elements] = [mesh.triangles, mesh.elements.len()];
+        Self {
+            ranks,
+            triangles: cut::equal_shares((0..triangles).map(&cost), ranks.count()),
+            atoms: cut::equal_shares((triangles..elements).map(&cost), ranks.count()),
+            called: 0,
+            heard: 0,
+        }
+    }
+
+    pub fn ranks(&self) -> Ranks {
+        self.ranks
+    }
+
+    /// My triangles.
+    pub fn triangles(&self) -> Range<usize> {
+        self.triangles[self.ranks.rank()]..self.triangles[self.ranks.rank() + 1]
+    }
+
+    /// My atoms, counted from 0.
+    pub fn atoms(&self) -> Range<usize> {
+        self.atoms[self.ranks.rank()]..self.atoms[self.ranks.rank() + 1]
+    }
+
+    fn triangle_count(&self) -> usize {
+        self.triangles[self.ranks.count()]
+    }
+
+    /// My elements: triangles and atoms.
+    pub fn elements(&self) -> [Range<usize>; 2] {
+        let atoms = self.atoms();
+        let first = self.triangle_count();
+        [self.triangles(), first + atoms.start..first + atoms.end]
+    }
+
+    /// My nodes: those of triangles and those of atoms.
+    pub fn nodes(&self) -> [Range<usize>; 2] {
+        self.elements().map(|elements| self.nodes_of(elements))
+    }
+
+    /// The nodes of consecutive elements, all triangles or all atoms.
+    fn nodes_of(&self, elements: Range<usize>) -> Range<usize> {
+        let first = |element: usize| {
+            let triangles = element.min(self.triangle_count());
+            2 * triangles + element
+        };
+        first(elements.start)..first(elements.end)
+    }
+
+    pub fn is_mine(&self, element: usize) -> bool {
+        self.elements().iter().any(|mine| mine.contains(&element))
+    }
+
+    /// The rank that computes an element.
+    pub fn owner(&self, element: usize) -> usize {
+        let (starts, number) = match element.checked_sub(self.triangle_count()) {
+            None => (&self.triangles, element),
+            Some(atom) => (&self.atoms, atom),
+        };
+        starts[1..].partition_point(|&end| end <= number)
+    }
+
+    /// Tells something to all ranks when they next agree.
+    pub fn call(&mut self, call: Call) {
+        self.called |= call as u64;
+    }
+
+    /// All ranks hear what any of them has called.
+    pub fn agree(&mut self) {
+        self.heard |= self.ranks.any(std::mem::take(&mut self.called));
+    }
+
+    /// Whether any rank has called this since it was last asked.
+    pub fn hears(&mut self, call: Call) -> bool {
+        let heard = self.heard & call as u64 != 0;
+        self.heard &= !(call as u64);
+        heard
+    }
+
+    /// Brings the numbers of all nodes to the first rank, each from the rank that computes it.
+    pub fn gather_nodes(&self, plane: &mut [f64]) {
+        let (of_triangles, of_atoms) = plane.split_at_mut(3 * self.triangle_count());
+        self.ranks.gather(of_triangles, &self.starts_of_triangle_nodes());
+        self.ranks.gather(of_atoms, &self.atoms);
+    }
+
+    /// Brings the numbers of all nodes to all ranks, each from the rank that computes it.
+    pub fn share_nodes(&self, plane: &mut [f64]) {
+        let (of_triangles, of_atoms) = plane.split_at_mut(3 * self.triangle_count());
+        self.ranks.share(of_triangles, &self.starts_of_triangle_nodes());
+        self.ranks.share(of_atoms, &self.atoms);
+    }
+
+    /// Brings the numbers of all elements to all ranks.
+    pub fn share_elements(&self, plane: &mut [f64]) {
+        let (of_triangles, of_atoms) = plane.split_at_mut(self.triangle_count());
+        self.ranks.share(of_triangles, &self.triangles);
+        self.ranks.share(of_atoms, &self.atoms);
+    }
+
+    fn starts_of_triangle_nodes(&self) -> Vec<usize> {
+        self.triangles.iter().map(|triangle| 3 * triangle).collect()
+    }
+}

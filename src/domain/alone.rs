@@ -1,0 +1,83 @@
+//! One rank, in a program without MPI.
+
+use super::halo::Parcel;
+use super::{DomainError, mpirun_ranks};
+
+/// The processes that compute one case together: here only this one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Ranks;
+
+/// What lasts as long as ranks can talk.
+#[derive(Debug)]
+pub struct Session;
+
+/// To be called once, before anything else. An error if there seem to be other ranks.
+pub fn start() -> Result<(Ranks, Session), DomainError> {
+    match mpirun_ranks() {
+        Some(ranks) if ranks > 1 => Err(DomainError::WithoutMpi(ranks)),
+        _ => Ok((Ranks, Session)),
+    }
+}
+
+/// The MPI library; `None` without one.
+pub fn library() -> Option<String> {
+    None
+}
+
+impl Ranks {
+    pub fn alone() -> Self {
+        Self
+    }
+
+    pub fn rank(self) -> usize {
+        0
+    }
+
+    pub fn count(self) -> usize {
+        1
+    }
+
+    /// Whether this rank speaks and writes.
+    pub fn is_first(self) -> bool {
+        true
+    }
+
+    /// Ends all ranks.
+    pub fn abort(self, _: u8) {}
+
+    /// The bits that any rank has set.
+    pub(super) fn any(self, bits: u64) -> u64 {
+        bits
+    }
+
+    pub fn least(self, number: u64) -> u64 {
+        number
+    }
+
+    pub fn largest(self, number: f64) -> f64 {
+        number
+    }
+
+    /// Puts what the first rank has there.
+    pub fn follow_first(self, _: &mut [f64]) {}
+
+    /// What all ranks have, one after the other.
+    pub fn join(self, mine: Vec<u32>) -> Vec<u32> {
+        mine
+    }
+
+    /// Gives every rank its list, and returns theirs for this one.
+    pub(super) fn swap(self, lists: &[Vec<u32>]) -> Vec<Vec<u32>> {
+        lists.to_vec()
+    }
+
+    pub(super) fn exchange<T>(self, _: &[Parcel], _: &mut [Parcel], work: impl FnOnce() -> T) -> T {
+        work()
+    }
+
+    /// Brings all ranks' parts of a plane to the first.
+    pub(super) fn gather(self, _: &mut [f64], _: &[usize]) {}
+
+    /// Brings all ranks' parts of a plane to all.
+    pub(super) fn share(self, _: &mut [f64], _: &[usize]) {}
+}
