@@ -166,6 +166,13 @@ impl Domain {
         self.ranks.share(of_atoms, &self.atoms);
     }
 
+    /// Brings the numbers of all elements to the first rank.
+    pub fn gather_elements(&self, plane: &mut [f64]) {
+        let (of_triangles, of_atoms) = plane.split_at_mut(self.triangle_count());
+        self.ranks.gather(of_triangles, &self.triangles);
+        self.ranks.gather(of_atoms, &self.atoms);
+    }
+
     /// Brings the numbers of all elements to all ranks.
     pub fn share_elements(&self, plane: &mut [f64]) {
         let (of_triangles, of_atoms) = plane.split_at_mut(self.triangle_count());

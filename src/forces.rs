@@ -4,8 +4,8 @@
 //! whose interface is intact along its strings (`interface`), and everywhere else by a neighbour search (`contact`).
 //! `referee` sums over all pairs without any of this.
 //!
-//! Every sum runs in an order fixed by the mesh, so that results do not depend on the number of threads or on when
-//! neighbour lists were made.
+//! Every sum runs in an order fixed by the mesh, so that results do not depend on the number of ranks or threads or on
+//! when neighbour lists were made.
 
 mod affine;
 mod bonds;
@@ -14,19 +14,21 @@ mod contact;
 mod interface;
 mod maps;
 mod measure;
+mod pass;
 pub mod referee;
 mod regular;
+mod share;
 mod stiffness;
 mod summation;
-mod sums;
 mod tile;
 
 pub use affine::{Affine, site_position};
 pub use measure::Measure;
 pub use summation::Summation;
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use crate::domain::{Domain, Halo, Ranks};
 use crate::lattice::triangular;
 use crate::material::Material;
 use crate::mesh::Mesh;
@@ -34,10 +36,9 @@ use crate::mesh::interfaces::Interfaces;
 use bulk::BulkBonds;
 use contact::Contacts;
 use contact::lattice::AtomLattice;
-use interface::{IntactLimit, Pair, State};
+use interface::{IntactLimit, State};
 use maps::Maps;
 use pulp::Arch;
-use rayon::prelude::*;
 use summation::SampledStrings;
 use tile::Tile;
 
@@ -67,6 +68,10 @@ impl ForceError {
 /// The force computation of one specimen: its mesh and material and what it remembers between steps.
 pub struct Forces {
     mesh: Mesh,
+    domain: Domain,
+    halo: Halo,
+    /// Others' elements that border mine in the lattice, ascending.
+    bordering: Vec<u32>,
     material: Material,
     summation: Summation,
     interfaces: Interfaces,
@@ -81,7 +86,7 @@ pub struct Forces {
     limit: IntactLimit,
     /// Interfaces that are not tight, ascending.
     loosened: Vec<u32>,
-    /// Interfaces that are tested in every step.
+    /// Interfaces of my triangles that are tested in every step.
     watched: Vec<u32>,
     /// No sound coordinate is larger, nm.
     farthest: f64,
@@ -89,6 +94,8 @@ pub struct Forces {
     arch: Arch,
     searches: u64,
     search_time: Duration,
+    exchanges: u64,
+    exchange_time: Duration,
 }
 
 impl Forces {
@@ -106,6 +113,11 @@ impl Forces {
     }
 
     pub fn with_summation(mesh: Mesh, material: Material, summation: Summation) -> Self {
+        Self::shared(Ranks::alone(), mesh, material, summation)
+    }
+
+    /// The part of this rank in the forces that all ranks compute together.
+    pub fn shared(ranks: Ranks, mesh: Mesh, material: Material, summation: Summation) -> Self {
         let cutoff = material.interaction.cutoff() / material.spacing;
         let listed = cutoff + Self::LISTED_BEYOND_CUTOFF;
         let interfaces = Interfaces::new(&mesh, listed);
@@ -114,7 +126,8 @@ impl Forces {
         let bulk = BulkBonds::new(&mesh, listed, summation);
         let strings = SampledStrings::new(&interfaces, summation);
         let maps = Maps::new(&mesh);
-        let tiles = tile::tiles(&mesh, &interfaces, &strings);
+        let domain = Domain::new(ranks, &mesh, share::costs(&mesh, &interfaces));
+        let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.triangles());
         let limit = IntactLimit::new(&material, triangular::next_length(listed));
         let atoms = AtomLattice::new(&mesh, listed, limit.regular);
         let reference = mesh.node_positions();
@@ -123,7 +136,10 @@ impl Forces {
             .flatten()
             .fold(0.0, |most: f64, place| most.max(place.abs()));
         let mut forces = Self {
+            bordering: share::bordering(&domain, &mesh, &interfaces, &atoms),
             mesh,
+            domain,
+            halo: Halo::default(),
             material,
             summation,
             interfaces,
@@ -141,6 +157,8 @@ impl Forces {
             arch: Arch::new(),
             searches: 0,
             search_time: Duration::ZERO,
+            exchanges: 0,
+            exchange_time: Duration::ZERO,
         };
         let severed = (0..).zip(&forces.interfaces.pairs).filter(|(_, pair)| pair.severed);
         let severed: Vec<u32> = severed.map(|(number, _)| number).collect();
@@ -182,27 +200,22 @@ impl Forces {
         (self.searches, self.search_time.as_secs_f64())
     }
 
+    /// How often ranks talked, and for how many seconds they waited for each other.
+    pub fn exchange_cost(&self) -> (u64, f64) {
+        (self.exchanges, self.exchange_time.as_secs_f64())
+    }
+
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    pub fn domain_mut(&mut self) -> &mut Domain {
+        &mut self.domain
+    }
+
     #[inline(always)]
     fn is_open(&self, interface: usize) -> bool {
         self.states[interface] == State::Open
-    }
-
-    /// Interfaces to be watched or of these triangles that are no longer what they were, and what they are.
-    fn changed_interfaces(&self, irregular: &[u32], position: &Planes) -> Vec<(u32, State)> {
-        let test = |&number: &u32| {
-            let before = self.states[number as usize];
-            if before == State::Open {
-                return None;
-            }
-            let pair = Pair::new(&self.mesh, &self.interfaces, number as usize, position);
-            let state = pair.state(&self.limit, pair.gap());
-            (state > before).then_some((number, state))
-        };
-        let watched = self.watched.par_iter().with_min_len(CHUNK).filter_map(test);
-        let irregular = irregular.par_iter().with_min_len(CHUNK);
-        let of_irregular =
-            irregular.flat_map_iter(|&triangle| self.interfaces.of(triangle as usize).iter().filter_map(test));
-        watched.chain(of_irregular).collect()
     }
 
     /// Finds out which interfaces must be tested in every step: those of triangles with an open interface. What follows from
@@ -225,48 +238,16 @@ impl Forces {
         let of_those = beside
             .flat_map(|triangle| self.interfaces.of(triangle as usize))
             .copied();
-        let mut watched: Vec<u32> = of_those.filter(|&number| !self.is_open(number as usize)).collect();
+        let triangles = self.domain.triangles();
+        let is_mine = |number: usize| {
+            let pair = self.interfaces.pairs[number];
+            [pair.first, pair.second].iter().any(|&triangle| triangles.contains(&(triangle as usize)))
+        };
+        let is_watched = |&number: &u32| !self.is_open(number as usize) && is_mine(number as usize);
+        let mut watched: Vec<u32> = of_those.filter(is_watched).collect();
         watched.sort_unstable();
         watched.dedup();
         self.watched = watched;
-    }
-
-    fn prepare_contacts(&mut self, position: &Planes) -> Result<(), ForceError> {
-        if self.contacts.are_current(position) {
-            return Ok(());
-        }
-        self.check_sound(position)?;
-        let field = contact::Field {
-            mesh: &self.mesh,
-            interfaces: &self.interfaces,
-            states: &self.states,
-            loosened: &self.loosened,
-            summation: self.summation,
-        };
-        let start = Instant::now();
-        self.contacts = Contacts::search(&field, &mut self.atoms, &self.material, position);
-        self.searches += 1;
-        self.search_time += start.elapsed();
-        Ok(())
-    }
-
-    /// Refuses positions that are no numbers or far away, and triangles that are inside out.
-    fn check_sound(&self, position: &Planes) -> Result<(), ForceError> {
-        for (element, shape) in self.mesh.elements.iter().enumerate() {
-            let first = self.mesh.first_node(element);
-            // Written so that a position that is not a number is refused.
-            let is_near = |node: usize| position.iter().all(|axis| axis[node].abs() <= self.farthest);
-            if !(first..first + shape.node_count()).all(is_near) {
-                return Err(ForceError::FlewAway { element });
-            }
-            if !shape.is_atom() {
-                let affine = Affine::of_triangle(shape.size, first, position);
-                if affine.determinant() <= 0.0 {
-                    return Err(ForceError::Inverted { element });
-                }
-            }
-        }
-        Ok(())
     }
 }
 

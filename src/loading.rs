@@ -1,5 +1,9 @@
 //! Prescribed motion: what moves the specimen from outside, and the work it does.
 
+mod impulse;
+
+pub use impulse::Impulse;
+
 use crate::mesh::Mesh;
 use crate::state::State;
 
@@ -108,15 +112,22 @@ impl Stretching {
         0.5 * (pull(&self.nodes[0]) - pull(&self.nodes[1]))
     }
 
-    /// Power of the grips, eV/ps.
-    pub fn power(&self, state: &State) -> f64 {
-        2.0 * self.speed * self.grip_force(state)
+    /// Nodes that the grips hold, those of the lower one first.
+    pub fn held(&self) -> impl Iterator<Item = u32> {
+        self.nodes.iter().flatten().copied()
+    }
+
+    /// Work of the grips that have pulled at each of their nodes with these impulses (eV ps/nm) along y, eV.
+    pub fn work(&self, impulses: &[f64]) -> f64 {
+        let (low, high) = impulses.split_at(self.nodes[0].len());
+        self.speed * (low.iter().sum::<f64>() - high.iter().sum::<f64>())
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::domain::Ranks;
     use crate::mesh::Plan;
     use crate::mesh::sites::Layout;
 
@@ -154,7 +165,7 @@ mod tests {
     }
 
     #[test]
-    fn sliding_grips_leave_x_free_and_power_is_force_times_speed() {
+    fn sliding_grips_leave_x_free_and_work_is_force_times_way() {
         let mesh = mesh();
         let loading = Stretching::new(&mesh, 1e-3, Grip::Sliding, false);
         let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
@@ -165,7 +176,10 @@ mod tests {
         state.force[1][0] = 3.0;
         state.force[1][last] = -3.0;
         assert_eq!(loading.grip_force(&state), 3.0);
+        let mut impulse = Impulse::new(&loading, &[0..state.nodes()]);
+        impulse.add(&state, 2.0);
         let [low, high] = mesh.grip_edges();
-        assert!((loading.power(&state) - 3.0 * 1e-3 * (high - low)).abs() < 1e-15);
+        let way = 2.0 * 1e-3 * (high - low);
+        assert!((loading.work(&impulse.gathered(Ranks::alone())) - 3.0 * way).abs() < 1e-14);
     }
 }

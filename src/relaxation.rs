@@ -13,6 +13,7 @@ mod vectors;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
+use crate::domain::Call;
 use crate::forces::{ForceError, Forces, Planes};
 use crate::material::Material;
 use crate::state::State;
@@ -157,11 +158,17 @@ impl<'a> Descent<'a> {
                 wanted: self.target.residual,
             });
         }
-        if self.stop.load(Ordering::Relaxed) {
+        if self.forces.domain_mut().hears(Call::Stop) {
             return Err(RelaxationError::Interrupted);
         }
+        if self.stop.load(Ordering::Relaxed) {
+            self.forces.domain_mut().call(Call::Stop);
+        }
         self.evaluations += 1;
-        self.forces.compute(&self.state.position, &mut self.state.force)?;
+        let State { position, force, .. } = &mut *self.state;
+        self.forces.compute(position, force)?;
+        // Every rank carries the whole specimen to rest.
+        force.iter_mut().for_each(|axis| self.forces.domain().share_nodes(axis));
         Ok(())
     }
 

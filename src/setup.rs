@@ -13,6 +13,7 @@ pub use run::{Finished, RunCaseError, run_case};
 
 use std::time::Duration;
 
+use crate::domain::Ranks;
 use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching};
@@ -137,6 +138,11 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
 
 /// The solver of a case at the start of its run.
 pub fn solver(case: &Case) -> Result<Solver, SetupError> {
+    shared_solver(case, Ranks::alone())
+}
+
+/// The part of this rank in a solver of a case.
+pub fn shared_solver(case: &Case, ranks: Ranks) -> Result<Solver, SetupError> {
     let material = material(case)?;
     let plan = mesh_plan(case, &material)?;
     estimate::refuse_what_does_not_fit(&plan)?;
@@ -152,7 +158,7 @@ pub fn solver(case: &Case) -> Result<Solver, SetupError> {
     };
     let loading = Stretching::new(&mesh, rate, grip, ramp == case::Ramp::InitialVelocity);
     let loading = loading.from_strain(case.run.relax.unwrap_or(0.0));
-    Ok(Solver::new(mesh, material, loading, settings(case, rate))?)
+    Ok(Solver::shared(ranks, mesh, material, loading, settings(case, rate))?)
 }
 
 fn settings(case: &Case, rate: f64) -> solver::Settings {

@@ -30,7 +30,8 @@ use crate::analysis::crack::Tracker;
 use crate::analysis::initiation;
 use crate::analysis::series::{BondEvent, Probe, Setting};
 use crate::forces::{Forces, Measure, Summation};
-use crate::loading::Stretching;
+use crate::domain::{Call, Ranks};
+use crate::loading::{Impulse, Stretching};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::relaxation::{self, RelaxationError, Target};
@@ -131,7 +132,9 @@ pub struct Solver {
     stability_limit: f64,
     /// Half a kick that the velocities still lack, ps.
     due_kick: Option<f64>,
-    power: f64,
+    grip_impulse: Impulse,
+    /// Of all ranks, at the last observation.
+    grip_impulses: Vec<f64>,
     measure: Measure,
     /// Whether the measure is that of the present state.
     measured: bool,
@@ -147,6 +150,17 @@ pub struct Solver {
 impl Solver {
     /// A specimen at the start of its loading.
     pub fn new(mesh: Mesh, material: Material, loading: Stretching, settings: Settings) -> Result<Self, SolverError> {
+        Self::shared(Ranks::alone(), mesh, material, loading, settings)
+    }
+
+    /// The part of this rank in what all ranks compute together.
+    pub fn shared(
+        ranks: Ranks,
+        mesh: Mesh,
+        material: Material,
+        loading: Stretching,
+        settings: Settings,
+    ) -> Result<Self, SolverError> {
         let mut clock = Instant::now();
         let masses = mesh
             .lumped_masses()
@@ -167,16 +181,17 @@ impl Solver {
         let thermometer = Thermometer::new(&mesh);
         let j_integral = JIntegral::new(&mesh, material);
         let tracker = Tracker::new(&setting);
-        let mut forces = Forces::with_summation(mesh, material, settings.summation);
+        let mut forces = Forces::shared(ranks, mesh, material, settings.summation);
         let mut measure = Measure::default();
         forces
-            .compute_and_measure(&state.position, &mut state.force, &mut measure)
+            .compute_and_measure(&mut state.position, &mut state.force, &mut measure)
             .map_err(SolverError::NoStart)?;
+        measure.gather(forces.domain());
         let stability_limit = time_step::limit(&forces, &state);
         let time_step = settings.time_step.choose(stability_limit)?;
         let jump = material.interaction.jump_at_cutoff();
         let ledger = Ledger::new(&measure, state.kinetic_energy(), jump);
-        let power = loading.power(&state);
+        let grip_impulse = Impulse::new(&loading, &forces.domain().nodes());
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
         let stop = stop::Watch::new(&setting);
@@ -198,7 +213,8 @@ impl Solver {
             time_step,
             stability_limit,
             due_kick: None,
-            power,
+            grip_impulse,
+            grip_impulses: Vec::new(),
             measure,
             measured: true,
             ledger,
@@ -270,16 +286,27 @@ impl Solver {
                 self.save(observer)?;
                 return Ok(ending);
             }
-            if stop.load(Ordering::Relaxed) {
+            let domain = self.forces.domain_mut();
+            if domain.hears(Call::Stop) {
                 self.save(observer)?;
                 return Ok(Ending::Interrupted);
             }
-            if last_checkpoint.elapsed() >= self.settings.checkpoint_every {
+            if domain.hears(Call::Checkpoint) {
                 self.save(observer)?;
                 last_checkpoint = Instant::now();
             }
+            self.call(stop, last_checkpoint);
             self.step_on()?;
             self.observe(observer, false)?;
+        }
+    }
+
+    /// Tells all ranks if this one is asked to stop or its clock calls for a checkpoint; they hear it in the next step.
+    fn call(&mut self, stop: &AtomicBool, last_checkpoint: Instant) {
+        let is_due = self.ranks().is_first() && last_checkpoint.elapsed() >= self.settings.checkpoint_every;
+        let asked = [(stop.load(Ordering::Relaxed), Call::Stop), (is_due, Call::Checkpoint)];
+        for (_, call) in asked.into_iter().filter(|(is_asked, _)| *is_asked) {
+            self.forces.domain_mut().call(call);
         }
     }
 
@@ -295,8 +322,8 @@ impl Solver {
         self.refuse_a_crack_that_ran()?;
         self.loading.start(self.forces.mesh(), &mut self.state);
         self.compute(true).map_err(SolverError::NoStart)?;
+        self.measure.gather(self.forces.domain());
         self.ledger.begin(&self.measure, self.state.kinetic_energy());
-        self.power = self.loading.power(&self.state);
         self.stability_limit = time_step::limit(&self.forces, &self.state);
         self.time_step = self.settings.time_step.choose(self.stability_limit)?;
         self.cost.book(Phase::SetUp, &mut clock);
@@ -328,21 +355,39 @@ impl Solver {
     fn save<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         self.settle();
         let mut clock = Instant::now();
+        self.gather_motion();
         // The state is lent to the checkpoint: a copy would be most of what a run of atoms keeps in memory.
         let mut checkpoint = self.checkpoint_without_motion();
-        checkpoint.lend(&mut self.state);
-        let saved = observer.checkpoint(&checkpoint, &self.cost());
-        checkpoint.lend(&mut self.state);
-        saved.map_err(RunError::Output)?;
+        if self.ranks().is_first() {
+            checkpoint.lend(&mut self.state);
+            let saved = observer.checkpoint(&checkpoint, &self.cost());
+            checkpoint.lend(&mut self.state);
+            saved.map_err(RunError::Output)?;
+        }
         self.cost.book(Phase::Output, &mut clock);
         Ok(())
     }
 
-    /// Where the time of this computation went: forces without the search for neighbours, which is a phase of its own.
+    /// Brings positions and velocities of all nodes to the first rank.
+    fn gather_motion(&mut self) {
+        let State { position, velocity, .. } = &mut self.state;
+        let planes = position.iter_mut().chain(velocity);
+        planes.for_each(|plane| self.forces.domain().gather_nodes(plane));
+    }
+
+    fn ranks(&self) -> Ranks {
+        self.forces.domain().ranks()
+    }
+
+    /// Where the time of this computation went: forces without the search for neighbours and the exchange with other
+    /// ranks, which are phases of their own.
     pub fn cost(&self) -> Cost {
         let (searches, seconds) = self.forces.search_cost();
         let mut cost = self.cost.clone();
         cost.add(Phase::Neighbours, searches, seconds);
+        cost.add(Phase::Forces, 0, -seconds);
+        let (exchanges, seconds) = self.forces.exchange_cost();
+        cost.add(Phase::Exchange, exchanges, seconds);
         cost.add(Phase::Forces, 0, -seconds);
         cost
     }

@@ -3,7 +3,7 @@
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
-use std::sync::Arc;
+use std::sync::{Arc, LazyLock};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread;
 use std::time::Duration;
@@ -14,6 +14,7 @@ use signal_hook::flag;
 
 use super::progress;
 use super::terminal::{self, warn};
+use crate::domain::{self, Ranks};
 use crate::executor::{Progress, exit};
 use crate::plan::{self, CaseId, Plan, PlannedCase};
 use crate::setup::{self, RunCaseError};
@@ -24,11 +25,12 @@ use crate::study::case::Case;
 
 /// Compute one case of a study.
 ///
+/// Started by mpirun, all ranks compute it together, to the same bits.
 /// Ctrl-C writes a checkpoint and stops; the same command goes on from there.
 /// Exit codes: 0 done, 2 bad input, 3 something is missing on this machine, 4 the physics failed,
 /// 5 output could not be written, 130 interrupted.
 #[derive(Debug, Parser)]
-#[command(name = "cgaft-solve", version)]
+#[command(name = "cgaft-solve", version = VERSION.as_str())]
 struct Arguments {
     /// The case, as `cgaft study run` writes it beside each run
     case: PathBuf,
@@ -72,42 +74,73 @@ pub enum SolveError {
     Store(#[from] StoreError),
 }
 
+/// With what it was built; the runner looks at the second line.
+static VERSION: LazyLock<String> = LazyLock::new(|| {
+    let mpi = domain::library().map(|library| format!("mpi ({library})"));
+    let version = env!("CARGO_PKG_VERSION");
+    format!("{version}\nfeatures: {}", mpi.unwrap_or_else(|| "none".to_owned()))
+});
+
 /// The whole of `cgaft-solve`.
 pub fn main() -> ExitCode {
     let arguments = Arguments::parse();
-    match solve(&arguments) {
+    let (ranks, _session) = match domain::start() {
+        Ok(started) => started,
+        Err(error) => return refuse(&SolveError::Environment(error.to_string())),
+    };
+    match solve(&arguments, ranks) {
         Ok(Ended::Finished(_)) => ExitCode::SUCCESS,
         Ok(Ended::Interrupted) => {
-            warn("interrupted; the same command goes on from the checkpoint");
+            if ranks.is_first() {
+                warn("interrupted; the same command goes on from the checkpoint");
+            }
             ExitCode::from(exit::INTERRUPTED)
         }
+        // All ranks know of it, and end together.
+        Err(error @ SolveError::Physics(_)) if !ranks.is_first() => ExitCode::from(error.exit_code()),
+        Err(error @ SolveError::Physics(_)) => refuse(&error),
         Err(error) => {
-            warn(&error.render(terminal::color()));
-            ExitCode::from(error.exit_code())
+            // What the first rank meets too it tells, and ends all.
+            if !ranks.is_first() {
+                thread::sleep(Duration::from_secs(2));
+            }
+            let code = refuse(&error);
+            ranks.abort(error.exit_code());
+            code
         }
     }
 }
 
-fn solve(arguments: &Arguments) -> Result<Ended, SolveError> {
+fn refuse(error: &SolveError) -> ExitCode {
+    warn(&error.render(terminal::color()));
+    ExitCode::from(error.exit_code())
+}
+
+fn solve(arguments: &Arguments, ranks: Ranks) -> Result<Ended, SolveError> {
     let plan = read_case(&arguments.case)?;
     let PlannedCase { name, case, .. } = &plan.cases[0];
+    let _lock = ranks.is_first().then(|| take_folder(arguments, case)).transpose()?;
+    let stop = stop_flag(arguments.parent_pipe, ranks)?;
+    let cores = || thread::available_parallelism().map_or(1, usize::from) as u32;
+    let threads = arguments.threads.or(case.execution.threads).unwrap_or_else(cores);
+    let ended = compute(case, name, arguments, ranks, threads, &stop).map_err(|error| refused(error, &plan))?;
+    if let (true, Ended::Finished(outcome)) = (ranks.is_first(), &ended) {
+        outcome.write(&arguments.into)?;
+    }
+    Ok(ended)
+}
+
+/// Keeps other solvers, and other cases, out of the folder.
+fn take_folder(arguments: &Arguments, case: &Case) -> Result<FolderLock, SolveError> {
     let patience = Duration::from_secs(30);
-    let Some(_lock) = FolderLock::take(&arguments.into, patience)? else {
+    let Some(lock) = FolderLock::take(&arguments.into, patience)? else {
         let folder = arguments.into.display();
         return Err(SolveError::Output(format!(
             "another solver writes into {folder}; wait for it, or choose another folder"
         )));
     };
     refuse_another_case(case, &arguments.case, &arguments.into)?;
-    let stop = stop_flag(arguments.parent_pipe)?;
-    let cores = || thread::available_parallelism().map_or(1, usize::from) as u32;
-    let threads = arguments.threads.or(case.execution.threads).unwrap_or_else(cores);
-    let mut tell = progress::teller(arguments.progress, name);
-    let ended = compute(case, &arguments.into, threads, &stop, tell.as_mut()).map_err(|error| refused(error, &plan))?;
-    if let Ended::Finished(outcome) = &ended {
-        outcome.write(&arguments.into)?;
-    }
-    Ok(ended)
+    Ok(lock)
 }
 
 fn read_case(path: &Path) -> Result<Plan, SolveError> {
@@ -142,7 +175,7 @@ fn other_case(into: &Path) -> String {
 
 /// Becomes true at Ctrl-C, SIGTERM and, if wanted, at the end of standard input. A second Ctrl-C ends the program at once,
 /// unless somebody holds the pipe, who can do that too: a scheduler sends its signals several times, and means one.
-fn stop_flag(parent_pipe: bool) -> Result<Arc<AtomicBool>, SolveError> {
+fn stop_flag(parent_pipe: bool, ranks: Ranks) -> Result<Arc<AtomicBool>, SolveError> {
     let stop = Arc::new(AtomicBool::new(false));
     for signal in [SIGINT, SIGTERM] {
         let failed = |error| SolveError::Environment(format!("cannot catch Ctrl-C: {error}"));
@@ -151,7 +184,8 @@ fn stop_flag(parent_pipe: bool) -> Result<Arc<AtomicBool>, SolveError> {
         }
         flag::register(signal, stop.clone()).map_err(failed)?;
     }
-    if parent_pipe {
+    // mpirun hands its standard input to the first rank.
+    if parent_pipe && ranks.is_first() {
         let stop = stop.clone();
         thread::spawn(move || {
             let mut input = io::stdin().lock();
@@ -181,17 +215,20 @@ impl SolveError {
     }
 }
 
-/// Computes the case into the folder, going on from its checkpoint if there is one: the one call to `setup`.
+/// Computes the case into the folder, going on from its checkpoint if there is one: the one call to `setup`. Only the first
+/// rank speaks.
 fn compute(
     case: &Case,
-    into: &Path,
+    name: &str,
+    arguments: &Arguments,
+    ranks: Ranks,
     threads: u32,
     stop: &AtomicBool,
-    tell: &mut (dyn FnMut(&Progress) + Send),
 ) -> Result<Ended, RunCaseError> {
+    let mut teller = progress::teller(arguments.progress, name);
     let mut tell = |progress: &solver::Progress| {
         let of = progress.of.max(1);
-        tell(&Progress {
+        teller(&Progress {
             step: progress.step,
             of,
             time_ps: progress.time,
@@ -200,7 +237,7 @@ fn compute(
             percent: 100.0 * progress.step as f64 / of as f64,
         });
     };
-    let finished = setup::run_case(case, into, threads, stop, &mut tell, &mut warn)?;
+    let finished = setup::run_case(case, &arguments.into, ranks, threads, stop, &mut tell, &mut warn)?;
     if finished.ending == Ending::Interrupted {
         return Ok(Ended::Interrupted);
     }

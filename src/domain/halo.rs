@@ -39,8 +39,17 @@ impl Halo {
         }
     }
 
-    pub fn elements(&self) -> &[Range<usize>] {
-        &self.elements
+    /// Triangles of others whose positions arrive.
+    pub fn triangles(&self, domain: &Domain) -> impl Iterator<Item = Range<usize>> {
+        let count = domain.triangle_count();
+        self.elements.iter().filter(move |range| range.end <= count).cloned()
+    }
+
+    /// Atoms of others whose positions arrive, counted from 0.
+    pub fn atoms(&self, domain: &Domain) -> impl Iterator<Item = Range<usize>> {
+        let count = domain.triangle_count();
+        let atoms = self.elements.iter().filter(move |range| range.start >= count);
+        atoms.map(move |range| range.start - count..range.end - count)
     }
 
     /// Brings the positions of others' nodes up to date while some work is done that does not need them.

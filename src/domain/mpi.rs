@@ -95,6 +95,12 @@ impl Ranks {
         }
     }
 
+    pub fn wait_for_all(self) {
+        if !self.is_alone() {
+            world_of_all().barrier();
+        }
+    }
+
     /// The bits that any rank has set.
     pub(super) fn any(self, bits: u64) -> u64 {
         self.reduce(bits, SystemOperation::bitwise_or())
@@ -133,6 +139,15 @@ impl Ranks {
         let starts = starts(&counts);
         let mut all = vec![0; total(&counts)];
         world_of_all().all_gather_varcount_into(&mine[..], &mut PartitionMut::new(&mut all[..], counts, starts));
+        all
+    }
+
+    /// Numbers of which each is zero on all ranks but one, as that one has them.
+    pub fn merge(self, mine: &[f64]) -> Vec<f64> {
+        let mut all = mine.to_vec();
+        if !self.is_alone() {
+            world_of_all().all_reduce_into(mine, &mut all[..], SystemOperation::sum());
+        }
         all
     }
 

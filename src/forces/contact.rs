@@ -21,6 +21,7 @@ use super::affine::site_position;
 use super::measure::{Measure, PARTS, in_parts};
 use super::regular::Regular;
 use super::{CHUNK, Planes};
+use crate::domain::{Domain, Halo};
 use crate::lanes::MOST;
 use crate::mesh::Mesh;
 use crate::potential::{CutPotential, PairShape};
@@ -37,6 +38,10 @@ pub struct Contacts {
     /// How many sites each stands for; empty where each stands for itself.
     weight: Vec<f64>,
     partners: Partners,
+    /// Elements of other ranks whose sites are partners of mine, ascending.
+    needed: Vec<u32>,
+    /// Atoms of this rank and partners of its sites.
+    placed: Vec<Range<usize>>,
     /// Nodes of what was searched, where they were, and how far one may go from there, nm.
     nodes: Vec<u32>,
     reference: Vec<[f64; 2]>,
@@ -58,6 +63,7 @@ pub struct SumField<'a, S> {
     pub law: &'a CutPotential<S>,
     pub regular: Option<Regular>,
     pub mesh: &'a Mesh,
+    pub domain: &'a Domain,
 }
 
 impl Contacts {
@@ -124,14 +130,19 @@ impl Contacts {
         for (part, plane) in of_carried.iter_mut().enumerate() {
             plane.resize(if MEASURED || part < 2 { carried } else { 0 }, 0.0);
         }
-        let own = of_carried.each_mut().map(Vec::as_mut_slice);
-        self.sum_sites::<S, MEASURED>(field, 0..carried, own);
+        let mine = self.sites_of_triangles(field.domain.triangles());
+        let own = of_carried.each_mut().map(|plane| part_of(plane, &mine));
+        self.sum_sites::<S, MEASURED>(field, mine, own);
         self.of_carried = of_carried;
         let triangles = field.mesh.triangles;
-        let [x, y] = force.each_mut().map(|plane| &mut plane[3 * triangles..]);
-        let [_, [energy, pairs, xx, yy, xy]] = measure.split(triangles);
+        let atoms = field.domain.atoms();
+        let [_, nodes] = field.domain.nodes();
+        let [x, y] = force.each_mut().map(|plane| &mut plane[nodes.clone()]);
+        let [_, held] = measure.split(triangles);
+        let [energy, pairs, xx, yy, xy] = held.map(|plane| part_of(plane, &atoms));
         let of_atoms = [x, y, energy, pairs, xx, yy, xy];
-        let mut irregular = self.sum_sites::<S, MEASURED>(field, carried..self.partners.site_count(), of_atoms);
+        let sites = carried + atoms.start..carried + atoms.end;
+        let mut irregular = self.sum_sites::<S, MEASURED>(field, sites, of_atoms);
         irregular.iter_mut().for_each(|site| *site -= carried as u32);
         irregular
     }
@@ -153,15 +164,17 @@ impl Contacts {
     }
 
     /// Adds the last sums of the sites that triangles carry to the forces on nodes and to what triangles hold.
-    pub fn add_to(&self, mesh: &Mesh, force: &mut Planes, measure: &mut Measure) {
+    pub fn add_to(&self, mesh: &Mesh, domain: &Domain, force: &mut Planes, measure: &mut Measure) {
         if self.carrier.is_empty() {
             return;
         }
+        let mine = domain.triangles();
+        let [nodes, _] = domain.nodes();
         let [x, y, held @ ..] = &self.of_carried;
         for (plane, of_site) in force.iter_mut().zip([x, y]) {
-            let chunks = plane[..3 * mesh.triangles].par_chunks_mut(3 * CHUNK).enumerate();
+            let chunks = plane[nodes.clone()].par_chunks_mut(3 * CHUNK).enumerate();
             chunks.for_each(|(chunk, force)| {
-                let from = chunk * CHUNK;
+                let from = mine.start + chunk * CHUNK;
                 for (site, carrier) in self.carried_by(from..from + force.len() / 3) {
                     let weights = mesh.elements[carrier].shape_functions(self.local(site));
                     (0..3).for_each(|node| force[3 * (carrier - from) + node] += weights[node] * of_site[site]);
@@ -170,7 +183,7 @@ impl Contacts {
         }
         let [of_triangles, _] = measure.split(mesh.triangles);
         for (plane, of_site) in of_triangles.into_iter().zip(held) {
-            for (site, carrier) in self.carried_by(0..plane.len()) {
+            for (site, carrier) in self.carried_by(within(&mine, plane.len())) {
                 plane[carrier] += of_site[site];
             }
         }
@@ -178,8 +191,22 @@ impl Contacts {
 
     /// The sites of some triangles, and by which each is carried.
     fn carried_by(&self, triangles: Range<usize>) -> impl Iterator<Item = (usize, usize)> {
-        let sites = self.of_triangle[triangles.start]..self.of_triangle[triangles.end];
-        sites.map(|site| (site as usize, self.carrier[site as usize] as usize))
+        let sites = self.sites_of_triangles(triangles);
+        sites.map(|site| (site, self.carrier[site] as usize))
+    }
+
+    fn sites_of_triangles(&self, triangles: Range<usize>) -> Range<usize> {
+        self.of_triangle[triangles.start] as usize..self.of_triangle[triangles.end] as usize
+    }
+
+    /// Elements of other ranks whose sites are partners of mine, ascending.
+    pub fn needed(&self) -> &[u32] {
+        &self.needed
+    }
+
+    /// Tells which atoms have places to follow.
+    pub fn place_atoms(&mut self, domain: &Domain, halo: &Halo) {
+        self.placed = halo.atoms(domain).chain([domain.atoms()]).collect();
     }
 
     /// Brings the positions of the sites up to date.
@@ -198,9 +225,12 @@ impl Contacts {
             }
         });
         for (atoms, nodes) in [atoms_x, atoms_y].into_iter().zip(position) {
-            let planes = atoms.par_chunks_mut(Self::TASK);
-            let planes = planes.zip(nodes[3 * mesh.triangles..].par_chunks(Self::TASK));
-            planes.for_each(|(atoms, nodes)| atoms.copy_from_slice(nodes));
+            let nodes = &nodes[3 * mesh.triangles..];
+            for placed in &self.placed {
+                let planes = atoms[placed.clone()].par_chunks_mut(Self::TASK);
+                let planes = planes.zip(nodes[placed.clone()].par_chunks(Self::TASK));
+                planes.for_each(|(atoms, nodes)| atoms.copy_from_slice(nodes));
+            }
         }
         self.position = [site_x, site_y];
     }
@@ -224,4 +254,14 @@ impl Contacts {
             call(vector, partner.severed(), self.count(site, other));
         });
     }
+}
+
+/// The part of a range that a plane has; none of a plane that is not kept.
+fn within(range: &Range<usize>, length: usize) -> Range<usize> {
+    range.start.min(length)..range.end.min(length)
+}
+
+pub(super) fn part_of<'a>(plane: &'a mut [f64], range: &Range<usize>) -> &'a mut [f64] {
+    let range = within(range, plane.len());
+    &mut plane[range]
 }

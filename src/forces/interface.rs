@@ -27,6 +27,13 @@ pub enum State {
     Open,
 }
 
+impl State {
+    /// The state whose number this is.
+    pub fn from_number(number: u32) -> Self {
+        [Self::Tight, Self::Loose, Self::Open][number as usize]
+    }
+}
+
 /// What the test of an interface compares.
 pub struct IntactLimit {
     /// nm

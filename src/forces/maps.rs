@@ -1,5 +1,7 @@
 //! The affine maps of all triangles, laid out so that consecutive triangles can be computed side by side.
 
+use std::ops::Range;
+
 use pulp::Simd;
 use rayon::prelude::*;
 
@@ -36,17 +38,20 @@ impl Maps {
         }
     }
 
-    /// Follows the nodes.
-    pub fn update(&mut self, position: &Planes) {
-        let [origin_x, origin_y, first_x, first_y, second_x, second_y] = &mut self.planes;
-        let [x, y] = position;
-        let along_x = tasks([origin_x, first_x, second_x], &self.edge, x);
-        let along_y = tasks([origin_y, first_y, second_y], &self.edge, y);
+    /// Follows the nodes of some consecutive triangles.
+    pub fn update(&mut self, position: &Planes, triangles: Range<usize>) {
+        let edge = &self.edge[triangles.clone()];
+        let nodes = 3 * triangles.start..3 * triangles.end;
+        let planes = self.planes.each_mut().map(|plane| &mut plane[triangles.clone()]);
+        let [origin_x, origin_y, first_x, first_y, second_x, second_y] = planes;
+        let [x, y] = position.each_ref().map(|plane| &plane[nodes.clone()]);
+        let along_x = tasks([origin_x, first_x, second_x], edge, x);
+        let along_y = tasks([origin_y, first_y, second_y], edge, y);
         // Both axes at once, so that threads wait for each other only once.
         along_x
             .chain(along_y)
             .for_each(|(((origin, first), second), (edge, nodes))| {
-                for (k, corner) in nodes.chunks_exact(3).take(edge.len()).enumerate() {
+                for (k, corner) in nodes.chunks_exact(3).enumerate() {
                     origin[k] = corner[0];
                     first[k] = (corner[1] - corner[0]) * edge[k];
                     second[k] = (corner[2] - corner[0]) * edge[k];
@@ -70,7 +75,7 @@ type Task<'a> = (((&'a mut [f64], &'a mut [f64]), &'a mut [f64]), (&'a [f64], &'
 
 /// The maps along one axis, triangles in tasks.
 fn tasks<'a>(
-    [origin, first, second]: [&'a mut Vec<f64>; 3],
+    [origin, first, second]: [&'a mut [f64]; 3],
     edge: &'a [f64],
     nodes: &'a [f64],
 ) -> impl IndexedParallelIterator<Item = Task<'a>> {

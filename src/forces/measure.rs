@@ -6,6 +6,7 @@ use std::ops::Range;
 use pulp::Simd;
 
 use super::{ForceError, Forces, Planes};
+use crate::domain::Domain;
 use crate::lanes::{self, Lanes};
 use crate::potential::{CutPotential, PairShape};
 
@@ -43,6 +44,11 @@ impl Measure {
         })
     }
 
+    /// Brings what all elements hold to the first rank.
+    pub fn gather(&mut self, domain: &Domain) {
+        self.planes.iter_mut().for_each(|plane| domain.gather_elements(plane));
+    }
+
     /// Makes room for so many elements.
     pub(super) fn fit(&mut self, elements: usize) {
         self.planes.iter_mut().for_each(|plane| plane.resize(elements, 0.0));
@@ -64,7 +70,7 @@ impl Forces {
     pub fn measure(&mut self, position: &Planes) -> Result<Measure, ForceError> {
         let mut unused = position.each_ref().map(|axis| vec![0.0; axis.len()]);
         let mut measure = Measure::default();
-        self.compute_and_measure(position, &mut unused, &mut measure)?;
+        self.compute_and_measure(&mut position.clone(), &mut unused, &mut measure)?;
         Ok(measure)
     }
 }

@@ -33,22 +33,49 @@ impl Forces {
     }
 
     /// The same for a state whose forces have just been computed: lists and interfaces are those of this state.
+    ///
+    /// Its last digits depend on which triangles are looked at together, up to [`Self::FREQUENCY_SLACK`].
     pub fn squared_frequency_bound_computed(&self, state: &State) -> f64 {
-        let elements = self.mesh.elements.len();
-        let tasks = (0..elements.div_ceil(TASK)).into_par_iter();
-        let bounds = tasks.map(|task| {
-            let range = task * TASK..elements.min((task + 1) * TASK);
-            with_law!(self.material.interaction, law => self.largest_of(&law, range, state))
-        });
-        bounds.reduce(|| 0.0, f64::max)
+        self.largest(state, false)
     }
 
-    fn largest_of<S: PairShape>(&self, law: &CutPotential<S>, elements: Range<usize>, state: &State) -> f64 {
+    /// The same to the last bit, by a closer and slower look at every triangle.
+    pub fn squared_frequency_bound_one_by_one(&self, state: &State) -> f64 {
+        self.largest(state, true)
+    }
+
+    /// Largest relative error of [`Self::squared_frequency_bound_computed`], with some room.
+    pub const FREQUENCY_SLACK: f64 = 2.0 * alike::SLACK;
+
+    fn largest(&self, state: &State, one_by_one: bool) -> f64 {
+        let tasks = self.tasks().into_par_iter();
+        let bounds = tasks.map(
+            |task| with_law!(self.material.interaction, law => self.largest_of(&law, task, state, one_by_one)),
+        );
+        self.domain.ranks().largest(bounds.reduce(|| 0.0, f64::max))
+    }
+
+    /// The elements of this rank, some at a time.
+    fn tasks(&self) -> Vec<Range<usize>> {
+        let parts = self.domain.elements().into_iter().flat_map(|elements| {
+            let starts = elements.clone().step_by(TASK);
+            starts.map(move |start| start..elements.end.min(start + TASK))
+        });
+        parts.collect()
+    }
+
+    fn largest_of<S: PairShape>(
+        &self,
+        law: &CutPotential<S>,
+        elements: Range<usize>,
+        state: &State,
+        one_by_one: bool,
+    ) -> f64 {
         let mut largest: f64 = 0.0;
         let mut at = elements.start;
         while at < elements.end {
             let mass = state.mass[self.mesh.first_node(at)];
-            let is_alike = state.coupling.is_empty() && self.are_alike(at, elements.end);
+            let is_alike = !one_by_one && state.coupling.is_empty() && self.are_alike(at, elements.end);
             let of_alike = is_alike.then(|| alike::largest(self, law, at, mass, largest)).flatten();
             if at >= self.mesh.triangles {
                 let atoms = self.arch.dispatch(atoms::Bounds::new(self, law, at..elements.end));
@@ -63,7 +90,8 @@ impl Forces {
                 if let Some(&share) = state.coupling.get(at) {
                     stiffness = over_coupled_masses(stiffness, share);
                 }
-                largest = largest.max(largest_eigenvalue(&stiffness, mass, largest));
+                let known = if one_by_one { 0.0 } else { largest };
+                largest = largest.max(largest_eigenvalue(&stiffness, mass, known));
                 at += 1;
             }
         }
@@ -75,17 +103,20 @@ impl Forces {
     pub fn stiffness_bounds(&mut self, position: &Planes) -> Result<Vec<f64>, ForceError> {
         self.refresh(position)?;
         self.contacts.place_sites(&self.mesh, position);
-        let [triangles, elements] = [self.mesh.triangles, self.mesh.elements.len()];
+        let [triangles, atoms] = self.domain.elements();
+        let mut bounds = vec![0.0; self.mesh.elements.len()];
         with_law!(self.material.interaction, law => {
             let of_triangle =
                 |triangle: usize| largest_eigenvalue(&self.triangle_stiffness(&law, triangle, position), 1.0, 0.0);
-            let of_triangles = (0..triangles).into_par_iter().with_min_len(CHUNK).map(of_triangle);
-            let mut bounds: Vec<f64> = of_triangles.collect();
-            if triangles < elements {
-                bounds.extend(self.arch.dispatch(atoms::Bounds::new(self, &law, triangles..elements)));
+            let of_triangles = triangles.clone().into_par_iter().with_min_len(CHUNK).map(of_triangle);
+            of_triangles.zip(&mut bounds[triangles]).for_each(|(found, bound)| *bound = found);
+            if !atoms.is_empty() {
+                let found = self.arch.dispatch(atoms::Bounds::new(self, &law, atoms.clone()));
+                bounds[atoms].copy_from_slice(&found);
             }
-            Ok(bounds)
-        })
+        });
+        self.domain.share_elements(&mut bounds);
+        Ok(bounds)
     }
 
     /// Bound of a triangle's stiffness, rows by node and component.

@@ -1,8 +1,8 @@
 //! Triangles in tiles: the forces of bonds inside them and along the strings of their interfaces.
 //!
-//! A tile is a fixed part of the mesh whatever the number of threads, small enough to stay in the cache. It computes
-//! every interface that touches one of its triangles, so that tiles need nothing of each other: interfaces between two
-//! tiles are computed twice. The order of its sums is its own and never changes.
+//! A tile is small enough to stay in the cache. It computes every interface that touches one of its triangles, so that
+//! tiles need nothing of each other: interfaces between two tiles are computed twice. The sum of a triangle runs over
+//! its interfaces by rising number, wherever the tile begins, so that tiles leave no trace in the result.
 
 mod sums;
 
@@ -23,6 +23,8 @@ const TILES: usize = 32;
 /// Consecutive triangles, and the interfaces with strings that touch them.
 pub struct Tile {
     pub triangles: Range<usize>,
+    /// Whether some of the interfaces are to triangles of other ranks.
+    pub is_at_border: bool,
     /// Parts of one size.
     sizes: Vec<(i32, Range<usize>)>,
     runs: Vec<Run>,
@@ -40,18 +42,22 @@ struct Run {
     owned: [bool; 2],
 }
 
-/// Cuts the triangles of a mesh into tiles.
-pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings) -> Vec<Tile> {
-    let length = tile_length(mesh.triangles);
-    let starts = (0..mesh.triangles).step_by(length);
+/// Cuts consecutive triangles of a mesh, those of one rank, into tiles.
+pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, mine: Range<usize>) -> Vec<Tile> {
+    let length = tile_length(mine.len());
+    let starts = mine.clone().step_by(length);
     let mut tiles: Vec<Tile> = starts
-        .map(|start| Tile::empty(mesh, start..(start + length).min(mesh.triangles)))
+        .map(|start| Tile::empty(mesh, start..(start + length).min(mine.end)))
         .collect();
+    let tile_of = |triangle: u32| {
+        let is_mine = mine.contains(&(triangle as usize));
+        is_mine.then(|| (triangle as usize - mine.start) / length)
+    };
     for (number, pair) in interfaces.pairs.iter().enumerate() {
         if !strings.are_there(pair.kind) {
             continue;
         }
-        let [one, other] = [pair.first, pair.second].map(|triangle| triangle as usize / length);
+        let [one, other] = [pair.first, pair.second].map(tile_of);
         let mut entry = Run {
             kind: pair.kind,
             first: pair.first,
@@ -60,10 +66,15 @@ pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings) -> 
             count: 1,
             owned: [true, one == other],
         };
-        tiles[one].push(entry);
-        if one != other {
+        let is_at_border = one.is_none() || other.is_none();
+        if let Some(tile) = one {
+            tiles[tile].push(entry);
+            tiles[tile].is_at_border |= is_at_border;
+        }
+        if let Some(tile) = other.filter(|_| one != other) {
             entry.owned = [false, true];
-            tiles[other].push(entry);
+            tiles[tile].push(entry);
+            tiles[tile].is_at_border |= is_at_border;
         }
     }
     tiles
@@ -85,6 +96,7 @@ impl Tile {
         }
         Self {
             triangles,
+            is_at_border: false,
             sizes,
             runs: Vec::new(),
         }

@@ -23,7 +23,7 @@ pub fn read(path: &Path, case_id: &str) -> Result<Checkpoint, RecordError> {
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 2,
+        format: 3,
         case_id,
     }
 }
@@ -39,7 +39,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         velocity: [velocity_x, velocity_y],
         open_interfaces,
         start: [start_potential, start_pairs, start_kinetic],
-        work,
+        grip_impulses,
         peak_work,
         peak_imbalance,
         broken_bonds,
@@ -53,6 +53,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         ("position_y", "nm", position_y),
         ("velocity_x", "nm/ps", velocity_x),
         ("velocity_y", "nm/ps", velocity_y),
+        ("grip_impulses", "eV ps/nm", grip_impulses),
     ] {
         put(group, name, unit, &[numbers.len()], numbers, Packing::Plain)?;
     }
@@ -82,7 +83,6 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         ("start_potential", "eV", start_potential),
         ("start_pairs", "1", start_pairs),
         ("start_kinetic", "eV", start_kinetic),
-        ("work", "eV", work),
         ("peak_work", "eV", peak_work),
         ("peak_imbalance", "eV", peak_imbalance),
         ("last_advance", "ps", last_advance),
@@ -107,7 +107,7 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
             get_scalar(group, "start_pairs")?,
             get_scalar(group, "start_kinetic")?,
         ],
-        work: get_scalar(group, "work")?,
+        grip_impulses: get(group, "grip_impulses")?,
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,
         broken_bonds: get_rows(group, "broken_bonds")?,

@@ -5,9 +5,11 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 
 use super::recorder::{Recorder, field_mesh};
-use super::{SetupError, solver};
+use super::{SetupError, shared_solver};
+use crate::domain::Ranks;
 use crate::plan::CaseId;
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
+use crate::solver::checkpoint::Checkpoint;
 use crate::solver::{Ending, Progress, RunError, Solver, SolverError};
 use crate::store::{Phase, StoreError};
 use crate::study::case::Case;
@@ -45,10 +47,12 @@ pub enum RunCaseError {
 }
 
 /// Computes a case into its folder and publishes the series and the fields there. Goes on from the folder's
-/// checkpoint if there is one, and says so through `warn`; a damaged one too, and then the run starts afresh.
+/// checkpoint if there is one, and says so through `warn`; a damaged one too, and then the run starts afresh. All ranks
+/// call it together, each with so many threads; the first writes.
 pub fn run_case(
     case: &Case,
     into: &Path,
+    ranks: Ranks,
     threads: u32,
     stop: &AtomicBool,
     tell: &mut (dyn FnMut(&Progress) + Send),
@@ -64,27 +68,30 @@ pub fn run_case(
         threads,
         why: error.to_string(),
     })?;
-    pool.install(|| compute(case, into, stop, tell, warn))
+    pool.install(|| compute(case, into, ranks, stop, tell, warn))
 }
 
 fn compute(
     case: &Case,
     into: &Path,
+    ranks: Ranks,
     stop: &AtomicBool,
     tell: &mut (dyn FnMut(&Progress) + Send),
     warn: &mut (dyn FnMut(&str) + Send),
 ) -> Result<Finished, RunCaseError> {
     let id = CaseId::of(case).to_string();
-    let mut solver = solver(case)?;
-    resume(&mut solver, into, &id, warn)?;
+    let mut solver = shared_solver(case, ranks)?;
+    resume(&mut solver, into, ranks, &id, warn)?;
     let mut recorder = Recorder::new(into, id.clone(), &solver, tell);
     let ended = solver.run(&mut recorder, stop);
     let ending = match ended {
         Ok(ending) => ending,
         Err(RunError::Output(error)) => return Err(error),
         Err(RunError::Physics(error)) => {
-            recorder.flush()?;
-            publish(solver, into, &id)?;
+            if ranks.is_first() {
+                recorder.flush()?;
+                publish(solver, into, &id)?;
+            }
             return Err(RunCaseError::Physics(error, into.display().to_string()));
         }
     };
@@ -97,32 +104,65 @@ fn compute(
         energy_error: solver.ledger().relative_error(),
         cost: recorder.total_cost(&solver.cost()),
     };
-    if ending != Ending::Interrupted {
+    if ranks.is_first() && ending != Ending::Interrupted {
         publish(solver, into, &id)?;
     }
     Ok(finished)
 }
 
-/// Goes back to the folder's checkpoint, and removes what was recorded after it.
-fn resume(solver: &mut Solver, into: &Path, id: &str, warn: &mut (dyn FnMut(&str) + Send)) -> Result<(), RunCaseError> {
+/// Goes back to the folder's checkpoint, and removes what was recorded after it. The first rank decides whether there is
+/// one.
+fn resume(
+    solver: &mut Solver,
+    into: &Path,
+    ranks: Ranks,
+    id: &str,
+    warn: &mut (dyn FnMut(&str) + Send),
+) -> Result<(), RunCaseError> {
     let path = into.join(CHECKPOINT_FILE);
-    let checkpoint = match record::checkpoint::read(&path, id) {
-        Ok(checkpoint) => checkpoint,
-        Err(RecordError::Absent { .. }) => return Ok(record::cut_back(into, None)?),
-        Err(error @ RecordError::Damaged { .. }) => return start_afresh(into, &error, warn),
-        Err(error) => return Err(error.into()),
+    let found = if ranks.is_first() {
+        usable_checkpoint(into, &path, id, warn)?
+    } else {
+        None
     };
+    let mut is_there = [f64::from(u8::from(found.is_some()))];
+    ranks.follow_first(&mut is_there);
+    if is_there[0] == 0.0 {
+        return Ok(());
+    }
+    let checkpoint = found.map_or_else(|| record::checkpoint::read(&path, id), Ok)?;
+    // Nobody goes on, and perhaps replaces it, before all have read it.
+    ranks.wait_for_all();
     match solver.restore(&checkpoint) {
         Ok(()) => (),
+        Err(SolverError::OtherSpecimen(_)) if !ranks.is_first() => return Ok(()),
         Err(error @ SolverError::OtherSpecimen(_)) => return start_afresh(into, &error, warn),
         Err(error) => return Err(RunCaseError::Physics(error, into.display().to_string())),
     }
-    record::cut_back(into, Some(checkpoint.step))?;
-    warn(&format!(
-        "going on from step {}, {:.3} ps",
-        checkpoint.step, checkpoint.time
-    ));
+    if ranks.is_first() {
+        record::cut_back(into, Some(checkpoint.step))?;
+        warn(&format!(
+            "going on from step {}, {:.3} ps",
+            checkpoint.step, checkpoint.time
+        ));
+    }
     Ok(())
+}
+
+/// The folder's checkpoint; where there is none of use, nothing else is left either.
+fn usable_checkpoint(
+    into: &Path,
+    path: &Path,
+    id: &str,
+    warn: &mut (dyn FnMut(&str) + Send),
+) -> Result<Option<Checkpoint>, RunCaseError> {
+    match record::checkpoint::read(path, id) {
+        Ok(checkpoint) => return Ok(Some(checkpoint)),
+        Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
+        Err(error @ RecordError::Damaged { .. }) => start_afresh(into, &error, warn)?,
+        Err(error) => return Err(error.into()),
+    }
+    Ok(None)
 }
 
 /// Forgets a run whose checkpoint is of no use.

@@ -23,8 +23,8 @@ pub struct Checkpoint {
     pub open_interfaces: Vec<u32>,
     /// Potential energy (eV), pairs within the cutoff and kinetic energy (eV) when the motion began.
     pub start: [f64; 3],
-    /// Work of the grips so far, eV.
-    pub work: f64,
+    /// Impulse with which every node in the grips was pulled so far, the lower grip first, eV ps/nm.
+    pub grip_impulses: Vec<f64>,
     /// Largest |work| and largest energy imbalance seen, eV.
     pub peak_work: f64,
     pub peak_imbalance: f64,

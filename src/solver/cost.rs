@@ -9,6 +9,8 @@ pub enum Phase {
     SetUp,
     /// Neighbour search; the source's ELIST.
     Neighbours,
+    /// What ranks send each other in every step, and how long they wait; the source's EXCHANGE.
+    Exchange,
     /// Forces; the source's FORCE and SOLV.
     Forces,
     /// Central differences; the source's CENTRAL.
@@ -20,9 +22,10 @@ pub enum Phase {
 }
 
 impl Phase {
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::SetUp,
         Self::Neighbours,
+        Self::Exchange,
         Self::Forces,
         Self::Motion,
         Self::Stability,
@@ -33,6 +36,7 @@ impl Phase {
         match self {
             Self::SetUp => "set-up",
             Self::Neighbours => "neighbours",
+            Self::Exchange => "exchange",
             Self::Forces => "forces",
             Self::Motion => "motion",
             Self::Stability => "stability",

@@ -15,7 +15,6 @@ pub struct Ledger {
     initial_kinetic: f64,
     /// What the energy of a pair jumps by when it comes within the cutoff, eV.
     jump: f64,
-    work: f64,
     peak_work: f64,
     peak_imbalance: f64,
 }
@@ -39,7 +38,6 @@ impl Ledger {
             initial_pairs: start.pairs(),
             initial_kinetic: kinetic,
             jump,
-            work: 0.0,
             peak_work: 0.0,
             peak_imbalance: 0.0,
         }
@@ -50,21 +48,17 @@ impl Ledger {
         *self = Self::new(start, kinetic, self.jump);
     }
 
-    pub fn add_work(&mut self, work: f64) {
-        self.work += work;
-        self.peak_work = self.peak_work.max(self.work.abs());
-    }
-
-    /// Balances the energies of a moment and remembers the largest imbalance.
-    pub fn balance(&mut self, measure: &Measure, kinetic: f64) -> Balance {
+    /// Balances the energies of a moment, `work` being that of the grips so far, and remembers the largest imbalance.
+    pub fn balance(&mut self, measure: &Measure, kinetic: f64, work: f64) -> Balance {
+        self.peak_work = self.peak_work.max(work.abs());
         let potential = measure.energy() - self.initial_potential;
         // Adding zero turns a negative zero into zero.
         let cutoff_release = self.jump * (measure.pairs() - self.initial_pairs) + 0.0;
-        let imbalance = (kinetic - self.initial_kinetic + potential - self.work - cutoff_release).abs();
+        let imbalance = (kinetic - self.initial_kinetic + potential - work - cutoff_release).abs();
         self.peak_imbalance = self.peak_imbalance.max(imbalance);
         Balance {
             potential,
-            work: self.work,
+            work,
             cutoff_release,
             imbalance,
         }
@@ -99,10 +93,6 @@ impl Ledger {
         })
     }
 
-    pub fn work(&self) -> f64 {
-        self.work
-    }
-
     pub fn peak_work(&self) -> f64 {
         self.peak_work
     }
@@ -116,9 +106,8 @@ impl Ledger {
         [self.initial_potential, self.initial_pairs, self.initial_kinetic]
     }
 
-    pub fn restore(&mut self, start: [f64; 3], work: f64, peak_work: f64, peak_imbalance: f64) {
+    pub fn restore(&mut self, start: [f64; 3], peak_work: f64, peak_imbalance: f64) {
         [self.initial_potential, self.initial_pairs, self.initial_kinetic] = start;
-        self.work = work;
         self.peak_work = peak_work;
         self.peak_imbalance = peak_imbalance;
     }

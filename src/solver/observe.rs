@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use super::j_integral::Rings;
-use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe};
+use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, SolverError, probe};
 use crate::analysis::crack::Tracker;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
@@ -21,6 +21,51 @@ impl Solver {
         if !self.measured {
             self.compute(true).map_err(|source| self.blow_up(source))?;
         }
+        self.gather();
+        let given = if self.ranks().is_first() {
+            self.give(observer, probe, snapshot)
+        } else {
+            Ok(())
+        };
+        if let Err(RunError::Output(_)) = given {
+            return given;
+        }
+        self.follow_first(given.is_err())?;
+        self.cost.book(Phase::Output, &mut clock);
+        given
+    }
+
+    /// Brings to the first rank what observers look at.
+    fn gather(&mut self) {
+        self.gather_motion();
+        let domain = self.forces.domain();
+        self.state
+            .force
+            .iter_mut()
+            .for_each(|plane| domain.gather_nodes(plane));
+        self.measure.gather(domain);
+        self.grip_impulses = self.grip_impulse.gathered(domain.ranks());
+    }
+
+    /// All ranks learn what only the first knows and what ends a run.
+    fn follow_first(&mut self, has_failed: bool) -> Result<(), SolverError> {
+        let has_failed = f64::from(u8::from(has_failed));
+        let mut told = [has_failed, self.stop.last_advance(), self.stop.farthest_tip()];
+        self.ranks().follow_first(&mut told);
+        let [has_failed, last_advance, farthest_tip] = told;
+        self.stop.restore(last_advance, farthest_tip);
+        if has_failed > 0.0 && !self.ranks().is_first() {
+            return Err(SolverError::ToldByFirstRank);
+        }
+        Ok(())
+    }
+
+    fn give<O: Observer>(
+        &mut self,
+        observer: &mut O,
+        probe: bool,
+        snapshot: bool,
+    ) -> Result<(), RunError<O::Error>> {
         if probe {
             self.probe(observer)?;
         }
@@ -37,7 +82,6 @@ impl Solver {
             };
             observer.snapshot(&moment).map_err(RunError::Output)?;
         }
-        self.cost.book(Phase::Output, &mut clock);
         Ok(())
     }
 
@@ -88,7 +132,8 @@ impl Solver {
     fn probe_row(&mut self) -> Probe {
         let measure = &self.measure;
         let kinetic = self.state.kinetic_energy();
-        let balance = self.ledger.balance(measure, kinetic);
+        let work = self.loading.work(&self.grip_impulses);
+        let balance = self.ledger.balance(measure, kinetic, work);
         let [sigma_xx, sigma_yy, sigma_xy] = self.interior.average_stress(measure, &self.setting);
         let area = self.setting.length * self.setting.thickness;
         Probe {

@@ -7,7 +7,8 @@ use crate::forces::Planes;
 use crate::lattice::triangular;
 
 impl Solver {
-    /// Everything that a later run needs to go on from here.
+    /// Everything that a later run needs to go on from here. All ranks must call this together; only the first has the
+    /// whole.
     pub fn checkpoint(&self) -> Checkpoint {
         Checkpoint {
             position: self.state.position.clone(),
@@ -27,7 +28,7 @@ impl Solver {
             velocity: Planes::default(),
             open_interfaces: self.forces.open_interfaces(),
             start: self.ledger.start(),
-            work: self.ledger.work(),
+            grip_impulses: self.grip_impulse.gathered(self.ranks()),
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
             broken_bonds: self.broken.clone(),
@@ -50,13 +51,9 @@ impl Solver {
         self.state.velocity.clone_from(&checkpoint.velocity);
         self.forces.restore_open_interfaces(&checkpoint.open_interfaces);
         self.compute(false).map_err(|source| self.blow_up(source))?;
-        self.power = self.loading.power(&self.state);
-        self.ledger.restore(
-            checkpoint.start,
-            checkpoint.work,
-            checkpoint.peak_work,
-            checkpoint.peak_imbalance,
-        );
+        self.grip_impulse.restore(&checkpoint.grip_impulses);
+        self.ledger
+            .restore(checkpoint.start, checkpoint.peak_work, checkpoint.peak_imbalance);
         self.broken.clone_from(&checkpoint.broken_bonds);
         self.tracker = Tracker::new(&self.setting);
         if let Some(tracker) = &mut self.tracker {
@@ -76,6 +73,9 @@ impl Solver {
         let nodes = self.state.nodes();
         if position.iter().chain(velocity).any(|axis| axis.len() != nodes) {
             return Err("it has another number of nodes");
+        }
+        if checkpoint.grip_impulses.len() != self.loading.held().count() {
+            return Err("its grips hold another number of nodes");
         }
         let interfaces = self.forces.interface_count();
         if checkpoint

@@ -19,7 +19,7 @@ impl Solver {
     /// Gives the velocities the half kick that they still lack.
     pub(super) fn settle(&mut self) {
         if let Some(time) = self.due_kick.take() {
-            integrator::kick(&mut self.state, time);
+            integrator::kick(&mut self.state, &self.forces.domain().nodes(), time);
         }
     }
 
@@ -31,7 +31,8 @@ impl Solver {
             self.settle();
         }
         let kicks = 1 + u32::from(self.due_kick.take().is_some());
-        integrator::kick_and_drift(&mut self.state, kicks, time_step);
+        self.grip_impulse.add(&self.state, 0.5 * time_step);
+        integrator::kick_and_drift(&mut self.state, &self.forces.domain().nodes(), kicks, time_step);
         self.step += 1;
         self.time += time_step;
         self.cost.book(Phase::Motion, &mut clock);
@@ -39,9 +40,7 @@ impl Solver {
             .map_err(|source| self.blow_up(source))?;
         self.cost.book(Phase::Forces, &mut clock);
         self.due_kick = Some(0.5 * time_step);
-        let power = self.loading.power(&self.state);
-        self.ledger.add_work(0.5 * time_step * (self.power + power));
-        self.power = power;
+        self.grip_impulse.add(&self.state, 0.5 * time_step);
         self.cost.book(Phase::Motion, &mut clock);
         if self.step.is_multiple_of(time_step::CHECK_EVERY) {
             self.stability_limit = time_step::limit(&self.forces, &self.state);

@@ -9,6 +9,7 @@ use super::super::{CHUNK, Planes};
 use super::Contacts;
 use super::lattice::{AtomLattice, Surroundings, pair_along};
 use super::partners::{PairKind, Partner};
+use crate::domain::Domain;
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
@@ -16,6 +17,7 @@ use crate::mesh::interfaces::Interfaces;
 /// What decides which pairs belong to the search.
 pub struct Field<'a> {
     pub mesh: &'a Mesh,
+    pub domain: &'a Domain,
     pub interfaces: &'a Interfaces,
     pub states: &'a [State],
     /// Interfaces that are not tight, ascending.
@@ -129,8 +131,11 @@ impl Contacts {
         let lists = candidates.partner_lists(field, lattice, &atoms, &grid, radius);
         let mut contacts = Self::from_lists(field, lattice, &atoms, &candidates, &lists);
         let first_atom = 3 * field.mesh.triangles as u32;
-        let of_triangles = triangles.iter().flat_map(|triangle| 3 * triangle..3 * triangle + 3);
-        let of_atoms = atoms.candidates.iter().map(|atom| first_atom + atom);
+        let [my_triangles, my_atoms] = [field.domain.triangles(), field.domain.atoms()];
+        let mine = triangles.iter().filter(|&&triangle| my_triangles.contains(&(triangle as usize)));
+        let of_triangles = mine.flat_map(|triangle| 3 * triangle..3 * triangle + 3);
+        let mine = atoms.candidates.iter().filter(|&&atom| my_atoms.contains(&(atom as usize)));
+        let of_atoms = mine.map(|atom| first_atom + atom);
         contacts.nodes = of_triangles.chain(of_atoms).collect();
         let place = |&node: &u32| [0, 1].map(|axis: usize| position[axis][node as usize]);
         contacts.reference = contacts.nodes.iter().map(place).collect();
@@ -139,7 +144,7 @@ impl Contacts {
         contacts
     }
 
-    /// Keeps all atoms and those sites of triangles that have partners, and numbers them anew.
+    /// Keeps all atoms and those sites of triangles that have partners or are partners of mine, and numbers them anew.
     fn from_lists(
         field: &Field,
         lattice: &AtomLattice,
@@ -148,15 +153,17 @@ impl Contacts {
         lists: &Lists,
     ) -> Self {
         let triangles = field.mesh.triangles;
+        let my_atoms = field.domain.atoms();
         let counts: Vec<u32> = lists.iter().flat_map(|(counts, _)| counts).copied().collect();
         let mut contacts = Self {
             of_triangle: vec![0; triangles + 1],
             ..Self::default()
         };
+        let met = candidates.others_met(field, lists);
         let mut number = Vec::with_capacity(candidates.element.len());
         for candidate in 0..candidates.carried {
             number.push(contacts.carrier.len());
-            if counts[candidate] > 0 {
+            if counts[candidate] > 0 || met.binary_search(&(candidate as u32)).is_ok() {
                 contacts.carrier.push(candidates.element[candidate]);
                 contacts.local.push(candidates.local[candidate]);
                 contacts.of_triangle[candidates.element[candidate] as usize + 1] += 1;
@@ -167,6 +174,11 @@ impl Contacts {
         for triangle in 0..triangles {
             contacts.of_triangle[triangle + 1] += contacts.of_triangle[triangle];
         }
+        contacts.needed = met
+            .iter()
+            .map(|&candidate| candidates.element[candidate as usize])
+            .collect();
+        contacts.needed.dedup();
         contacts.weigh_sites(field);
         let each_alone = !contacts.weight.is_empty();
         let partners = &mut contacts.partners;
@@ -178,11 +190,13 @@ impl Contacts {
                 listed = others;
                 let renumbered = mine.iter().map(|other| other.renumbered(number[other.site()]));
                 match candidate.checked_sub(candidates.carried) {
-                    None if count > 0 => partners.push(renumbered, each_alone),
+                    None if count > 0 || met.binary_search(&(candidate as u32)).is_ok() => {
+                        partners.push(renumbered, each_alone);
+                    }
                     None => {}
                     Some(atom) => {
                         let atom = atoms.candidates[atom] as usize;
-                        if atoms.searched[atom] {
+                        if atoms.searched[atom] && my_atoms.contains(&atom) {
                             partners.extend(lattice.partners(), next_atom..atom, carried);
                             partners.push(renumbered, each_alone);
                             next_atom = atom + 1;
@@ -234,6 +248,21 @@ impl Candidates {
         }
     }
 
+    /// Candidates of other ranks that are partners of mine, ascending.
+    fn others_met(&self, field: &Field, lists: &Lists) -> Vec<u32> {
+        if field.domain.ranks().count() == 1 {
+            return Vec::new();
+        }
+        let partners = lists.iter().flat_map(|(_, partners)| partners);
+        let met = partners.map(|partner| partner.site());
+        let others = met.filter(|&candidate| !field.domain.is_mine(self.element[candidate] as usize));
+        let mut others: Vec<u32> = others.map(|candidate| candidate as u32).collect();
+        others.sort_unstable();
+        others.dedup();
+        others
+    }
+
+    /// The partners of the candidates of this rank; none for the others.
     fn partner_lists(
         &self,
         field: &Field,
@@ -251,7 +280,8 @@ impl Candidates {
                 let atom = candidate
                     .checked_sub(self.carried)
                     .map(|at| atoms.candidates[at] as usize);
-                if atom.is_none_or(|atom| atoms.searched[atom]) {
+                let is_searched = atom.is_none_or(|atom| atoms.searched[atom]);
+                if is_searched && field.domain.is_mine(self.element[candidate] as usize) {
                     let is_watched = atom.is_some_and(|atom| !lattice.is_disturbed(atom));
                     self.collect_partners(field, grid, radius, candidate, is_watched, &mut partners);
                     partners[first..].sort_unstable_by_key(|partner| partner.site());

@@ -28,7 +28,7 @@ struct Stiffness<L: Simd> {
 
 /// How much larger than the largest known an eigenvalue may be and pass for it: more than rounding, and nothing to a
 /// time step.
-const SLACK: f64 = 1e-12;
+pub const SLACK: f64 = 1e-12;
 
 /// A side of an interface as a triangle sees it.
 struct Side {

@@ -127,7 +127,8 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
         if any_open || count < Lanes::<L>::COUNT || !regular.every() {
             self.note_irregular(run, [first, second], states, regular.answers());
         }
-        for (side, triangle) in [first, second].into_iter().enumerate() {
+        // Where a triangle is the second of one interface and the first of another, the former has the lower number.
+        for (side, triangle) in [(1, second), (0, first)] {
             if run.owned[side] {
                 let place = triangle - self.tile.triangles.start;
                 for share in &kind.shares[side] {

@@ -1,0 +1,284 @@
+//! One computation of the forces: what tiles, lists and ranks do after each other.
+
+use std::time::{Duration, Instant};
+
+use rayon::prelude::*;
+
+use super::interface::{Pair, State};
+use super::measure::in_parts;
+use super::tile::{self, Scratch};
+use super::{Affine, CHUNK, ForceError, Forces, Measure, Planes, contact};
+use crate::domain::{Call, Halo};
+use crate::potential::{CutPotential, PairShape, with_law};
+
+impl Forces {
+    /// Forces on all nodes of this rank, eV/nm. Brings the positions that they depend on from other ranks.
+    pub fn compute(&mut self, position: &mut Planes, force: &mut Planes) -> Result<(), ForceError> {
+        self.sum::<false>(position, force, &mut Measure::default())
+    }
+
+    /// The same forces to the bit, and what every element holds.
+    pub fn compute_and_measure(
+        &mut self,
+        position: &mut Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Result<(), ForceError> {
+        measure.fit(self.mesh.elements.len());
+        self.sum::<true>(position, force, measure)
+    }
+
+    /// Brings lists and states of interfaces up to date with the positions without giving forces.
+    pub fn refresh(&mut self, position: &Planes) -> Result<(), ForceError> {
+        let mut unused = position.each_ref().map(|axis| vec![0.0; axis.len()]);
+        self.compute(&mut position.clone(), &mut unused)
+    }
+
+    fn sum<const MEASURED: bool>(
+        &mut self,
+        position: &mut Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Result<(), ForceError> {
+        with_law!(self.material.interaction, law => {
+            self.sum_with::<_, MEASURED>(&law, position, force, measure)
+        })
+    }
+
+    /// Sums, and sums again as often as any rank finds that interfaces are not what they were or that lists are out of
+    /// date. Contacts are summed with the lists at hand before that is known, because it mostly turns out well.
+    fn sum_with<S: PairShape, const MEASURED: bool>(
+        &mut self,
+        law: &CutPotential<S>,
+        position: &mut Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Result<(), ForceError> {
+        let mut irregular = self.sum_all_tiles::<S, MEASURED>(law, position, force, measure);
+        loop {
+            let changed = self.changed_interfaces(&irregular, position);
+            let mut disturbed = Vec::new();
+            if !changed.is_empty() {
+                self.domain.call(Call::InterfaceChanged);
+            } else if !self.contacts.are_current(position) {
+                self.domain.call(Call::ListOutdated);
+            } else {
+                let field = contact::SumField {
+                    arch: self.arch,
+                    law,
+                    regular: self.limit.regular,
+                    mesh: &self.mesh,
+                    domain: &self.domain,
+                };
+                disturbed = self.contacts.sum::<S, MEASURED>(&field, position, force, measure);
+                if !disturbed.is_empty() {
+                    self.domain.call(Call::ListOutdated);
+                }
+            }
+            self.agree();
+            if self.domain.hears(Call::InterfaceChanged) {
+                let touched = self.change_interfaces(&changed);
+                irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &touched));
+            } else if self.domain.hears(Call::ListOutdated) {
+                let disturbed = self.domain.ranks().join(disturbed);
+                disturbed.into_iter().for_each(|atom| self.atoms.disturb(atom as usize));
+                self.search(position)?;
+            } else {
+                break;
+            }
+        }
+        self.contacts.add_to(&self.mesh, &self.domain, force, measure);
+        Ok(())
+    }
+
+    fn agree(&mut self) {
+        let start = Instant::now();
+        self.domain.agree();
+        self.exchanges += 1;
+        self.exchange_time += start.elapsed();
+    }
+
+    /// Sums of all triangles; those that need nothing of other ranks come first, while positions travel. Returns those whose
+    /// interfaces may loosen or open.
+    fn sum_all_tiles<S: PairShape, const MEASURED: bool>(
+        &mut self,
+        law: &CutPotential<S>,
+        position: &mut Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Vec<u32> {
+        self.maps.update(position, self.domain.triangles());
+        let inside: Vec<bool> = self.tiles.iter().map(|tile| !tile.is_at_border).collect();
+        let at_border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
+        let mut halo = std::mem::take(&mut self.halo);
+        let start = Instant::now();
+        let mut computing = Duration::ZERO;
+        let mut irregular = halo.exchange(&self.domain, position, |position| {
+            let start = Instant::now();
+            let irregular = self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &inside);
+            computing = start.elapsed();
+            irregular
+        });
+        self.exchange_time += start.elapsed() - computing;
+        for triangles in halo.triangles(&self.domain) {
+            self.maps.update(position, triangles);
+        }
+        self.halo = halo;
+        irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &at_border));
+        irregular
+    }
+
+    /// Sums of the triangles of some tiles; returns those whose interfaces may loosen or open.
+    fn sum_these_tiles<S: PairShape, const MEASURED: bool>(
+        &self,
+        law: &CutPotential<S>,
+        position: &Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+        these: &[bool],
+    ) -> Vec<u32> {
+        let field = tile::Field {
+            arch: self.arch,
+            law: *law,
+            limit: &self.limit,
+            mesh: &self.mesh,
+            strings: &self.strings,
+            bulk: &self.bulk,
+            states: &self.states,
+            maps: &self.maps,
+            position,
+        };
+        let mine = self.domain.triangles();
+        let [length, count] = [tile::tile_length(mine.len()), self.tiles.len()];
+        let [nodes, _] = self.domain.nodes();
+        let force = in_parts(
+            force.each_mut().map(|axis| &mut axis[nodes.clone()]),
+            3 * length,
+            count,
+        );
+        let [held, _] = measure.split(self.mesh.triangles);
+        let held = held.map(|plane| contact::part_of(plane, &mine));
+        let outputs = force.zip(in_parts(held, length, count));
+        let tiles = self.tiles.iter().zip(outputs).zip(these).filter(|&(_, &asked)| asked);
+        let tiles: Vec<_> = tiles.map(|(tile, _)| tile).collect();
+        tiles
+            .into_par_iter()
+            .map_init(Scratch::default, |scratch, (tile, (force, held))| {
+                tile::sum::<S, MEASURED>(&field, tile, scratch, tile::Output { force, held })
+            })
+            .flatten_iter()
+            .collect()
+    }
+
+    /// Interfaces to be watched or of these triangles that are no longer what they were, and what they are.
+    fn changed_interfaces(&self, irregular: &[u32], position: &Planes) -> Vec<(u32, State)> {
+        let test = |&number: &u32| {
+            let before = self.states[number as usize];
+            if before == State::Open {
+                return None;
+            }
+            let pair = Pair::new(&self.mesh, &self.interfaces, number as usize, position);
+            let state = pair.state(&self.limit, pair.gap());
+            (state > before).then_some((number, state))
+        };
+        let watched = self.watched.par_iter().with_min_len(CHUNK).filter_map(test);
+        let irregular = irregular.par_iter().with_min_len(CHUNK);
+        let of_irregular =
+            irregular.flat_map_iter(|&triangle| self.interfaces.of(triangle as usize).iter().filter_map(test));
+        watched.chain(of_irregular).collect()
+    }
+
+    /// Puts in force what any rank has found of interfaces; returns which of my tiles they touch.
+    fn change_interfaces(&mut self, mine: &[(u32, State)]) -> Vec<bool> {
+        let words = mine.iter().flat_map(|&(number, state)| [number, state as u32]);
+        let words = self.domain.ranks().join(words.collect());
+        let mut touched = vec![false; self.tiles.len()];
+        let triangles = self.domain.triangles();
+        let length = tile::tile_length(triangles.len());
+        let (changed, _) = words.as_chunks::<2>();
+        for &[number, state] in changed {
+            let pair = self.interfaces.pairs[number as usize];
+            let known = &mut self.states[number as usize];
+            *known = State::from_number(state).max(*known);
+            for triangle in [pair.first as usize, pair.second as usize] {
+                if triangles.contains(&triangle) {
+                    touched[(triangle - triangles.start) / length] = true;
+                }
+            }
+        }
+        self.watch(changed.iter().map(|&[number, _]| number));
+        self.contacts.forget();
+        touched
+    }
+
+    /// Makes new lists of neighbours. Anything may have come near, so all ranks learn all positions.
+    fn search(&mut self, position: &mut Planes) -> Result<(), ForceError> {
+        let start = Instant::now();
+        position.iter_mut().for_each(|axis| self.domain.share_nodes(axis));
+        let shared = Instant::now();
+        self.check_sound(position)?;
+        let field = contact::Field {
+            mesh: &self.mesh,
+            domain: &self.domain,
+            interfaces: &self.interfaces,
+            states: &self.states,
+            loosened: &self.loosened,
+            summation: self.summation,
+        };
+        self.contacts = contact::Contacts::search(&field, &mut self.atoms, &self.material, position);
+        let mut needed = [&self.bordering[..], self.contacts.needed()].concat();
+        needed.sort_unstable();
+        needed.dedup();
+        self.halo = Halo::ask(&self.domain, &needed);
+        self.contacts.place_atoms(&self.domain, &self.halo);
+        self.exchanges += 1;
+        self.exchange_time += shared - start;
+        self.searches += 1;
+        self.search_time += shared.elapsed();
+        Ok(())
+    }
+
+    /// Refuses positions that are no numbers or far away, and triangles that are inside out.
+    fn check_sound(&self, position: &Planes) -> Result<(), ForceError> {
+        let mine = self.domain.elements().into_iter().flatten();
+        let error = mine
+            .filter_map(|element| self.what_is_wrong_with(element, position))
+            .next();
+        // All ranks tell the same error, that of the first element.
+        let told = error.map_or(u64::MAX, ForceError::to_number);
+        match self.domain.ranks().least(told) {
+            u64::MAX => Ok(()),
+            number => Err(ForceError::from_number(number)),
+        }
+    }
+
+    fn what_is_wrong_with(&self, element: usize, position: &Planes) -> Option<ForceError> {
+        let shape = &self.mesh.elements[element];
+        let first = self.mesh.first_node(element);
+        // Written so that a position that is not a number is refused.
+        let is_near = |node: usize| position.iter().all(|axis| axis[node].abs() <= self.farthest);
+        if !(first..first + shape.node_count()).all(is_near) {
+            return Some(ForceError::FlewAway { element });
+        }
+        let is_sound = shape.is_atom() || Affine::of_triangle(shape.size, first, position).determinant() > 0.0;
+        (!is_sound).then_some(ForceError::Inverted { element })
+    }
+}
+
+impl ForceError {
+    /// The first element that went wrong has the least number.
+    fn to_number(self) -> u64 {
+        match self {
+            Self::FlewAway { element } => 2 * element as u64,
+            Self::Inverted { element } => 2 * element as u64 + 1,
+        }
+    }
+
+    fn from_number(number: u64) -> Self {
+        let element = (number / 2) as usize;
+        match number % 2 {
+            0 => Self::FlewAway { element },
+            _ => Self::Inverted { element },
+        }
+    }
+}
