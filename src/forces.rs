@@ -135,11 +135,12 @@ impl Forces {
             .iter()
             .flatten()
             .fold(0.0, |most: f64, place| most.max(place.abs()));
+        let bordering = share::bordering(&domain, &mesh, &interfaces, &atoms);
         let mut forces = Self {
-            bordering: share::bordering(&domain, &mesh, &interfaces, &atoms),
             mesh,
+            halo: Halo::ask(&domain, &bordering),
             domain,
-            halo: Halo::default(),
+            bordering,
             material,
             summation,
             interfaces,

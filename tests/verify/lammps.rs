@@ -115,7 +115,7 @@ fn differences(model: &Model, mesh: &Mesh, material: &Material, position: &Plane
     let mut forces = Forces::new(mesh.clone(), *material);
     let (energy, force) = in_lammps(model, position);
     let mut expected: Planes = [vec![0.0; mesh.node_count()], vec![0.0; mesh.node_count()]];
-    forces.compute(position, &mut expected).unwrap();
+    forces.compute(&mut position.clone(), &mut expected).unwrap();
     // Forces cancel in the perfect lattice, so they are measured by the force of a single bond too.
     let bond = 0.1 * material.interaction.curvature(material.spacing) * material.spacing;
     let scale = expected

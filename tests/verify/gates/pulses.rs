@@ -45,7 +45,7 @@ fn speed(along: usize, displaced: usize, expected: f64) -> f64 {
     let mut compute = |state: &mut State| {
         ghosts.follow(state);
         forces
-            .compute(&state.position, &mut state.force)
+            .compute(&mut state.position, &mut state.force)
             .expect("the bar is sound");
     };
     compute(&mut state);

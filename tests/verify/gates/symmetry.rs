@@ -81,7 +81,7 @@ fn a_centre_crack_stays_symmetric_until_it_starts() {
         let step = FRACTION * cgaft::integrator::stability_limit(bound);
         let mut compute = |state: &mut State| {
             forces
-                .compute(&state.position, &mut state.force)
+                .compute(&mut state.position, &mut state.force)
                 .expect("it stays sound");
             forces.broken_bonds(&state.position).len()
         };

@@ -47,7 +47,7 @@ impl Measured {
         let bound = forces.squared_frequency_bound(&state).expect("the patch is sound");
         let mut accelerations = |state: &mut State| {
             forces
-                .compute(&state.position, &mut state.force)
+                .compute(&mut state.position, &mut state.force)
                 .expect("the patch is sound");
             state.velocity.iter_mut().for_each(|plane| plane.fill(0.0));
             kick(state, 1.0);
