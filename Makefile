@@ -2,6 +2,8 @@
 
 CARGO ?= cargo
 TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
+# What a solver of several ranks is built and started with.
+MPI_PACKAGES = libopenmpi-dev openmpi-bin $(shell .ci/libclang)
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
@@ -22,15 +24,19 @@ help:
 quickstart: build
 	$(TARGET)/release/cgaft study run studies/quickstart.yaml
 
+# The solver is the only program that needs an MPI library; without one it computes with threads alone.
 build: setup
-	$(CARGO) build --release --locked
+	$(CARGO) build --release --locked --bin cgaft
+	@CARGO=$(CARGO) .ci/solver $(TARGET)
 
+# The tests look at both solvers, with and without MPI, and leave behind what `make build` makes.
 test: test-setup
 	$(CARGO) test --release --locked
+	@CARGO=$(CARGO) .ci/solver $(TARGET)
 
 # The programs are built first, so that the verification has them whatever was built before.
 # Where Slurm cannot be installed its test says so and passes.
-verify: build
+verify: build test-setup
 	@.ci/packages lammps
 	@.ci/packages slurm-wlm || echo 'going on without Slurm: its test is skipped'
 	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test verify
@@ -76,6 +82,9 @@ install: build
 
 setup:
 	@.ci/packages libhdf5-dev pkg-config
+	@.ci/packages $(MPI_PACKAGES) || echo 'going on without MPI: cases use threads, on one machine each'
 
 test-setup: setup
 	@.ci/python target/python h5py numpy vtk
+	@CARGO=$(CARGO) .ci/solver $(TARGET)
+	@mkdir -p target/mpi && cp $(TARGET)/release/cgaft-solve target/mpi/

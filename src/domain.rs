@@ -61,6 +61,8 @@ pub enum Call {
 #[derive(Clone, Debug)]
 pub struct Domain {
     ranks: Ranks,
+    /// Whose domain it is.
+    rank: usize,
     /// Where every rank's triangles start, and their number at the end.
     triangles: Vec<usize>,
     /// The same for the atoms, which are counted from 0.
@@ -72,14 +74,37 @@ pub struct Domain {
 
 impl Domain {
     /// Cuts a mesh so that all ranks have equal shares of the costs of its triangles and of those of its atoms.
-    pub fn new(ranks: Ranks, mesh: &Mesh, cost: impl Fn(usize) -> f64) -> Self {
+    pub fn new(ranks: Ranks, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy) -> Self {
+        Self::part(ranks, [ranks.rank(), ranks.count()], mesh, cost)
+    }
+
+    /// The part of one of so many ranks.
+    fn part(ranks: Ranks, [rank, count]: [usize; 2], mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy) -> Self {
         let [triangles, elements] = [mesh.triangles, mesh.elements.len()];
         Self {
             ranks,
-            triangles: cut::equal_shares((0..triangles).map(&cost), ranks.count()),
-            atoms: cut::equal_shares((triangles..elements).map(&cost), ranks.count()),
+            rank,
+            triangles: cut::equal_shares((0..triangles).map(cost), count),
+            atoms: cut::equal_shares((triangles..elements).map(cost), count),
             called: 0,
             heard: 0,
+        }
+    }
+
+    /// Cuts anew, from what every rank's triangles and atoms have cost: an element costs what it was thought to, times how far
+    /// its rank was off. Nobody knows the numbers of another rank's nodes before they have been shared.
+    pub fn cut_anew(&mut self, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy, spent: [&[f64]; 2]) {
+        let count = self.triangles.len() - 1;
+        let first_atom = mesh.triangles;
+        let classes = [(&mut self.triangles, 0, spent[0]), (&mut self.atoms, first_atom, spent[1])];
+        for (starts, first, spent) in classes {
+            let costs = starts.windows(2).zip(spent).flat_map(|(ends, &spent)| {
+                let elements = first + ends[0]..first + ends[1];
+                let thought: f64 = elements.clone().map(cost).sum();
+                elements.map(move |element| cost(element) * spent / thought)
+            });
+            let costs: Vec<f64> = costs.collect();
+            *starts = cut::equal_shares(costs.iter().copied(), count);
         }
     }
 
@@ -89,16 +114,16 @@ impl Domain {
 
     /// My triangles.
     pub fn triangles(&self) -> Range<usize> {
-        self.triangles[self.ranks.rank()]..self.triangles[self.ranks.rank() + 1]
+        self.triangles[self.rank]..self.triangles[self.rank + 1]
     }
 
     /// My atoms, counted from 0.
     pub fn atoms(&self) -> Range<usize> {
-        self.atoms[self.ranks.rank()]..self.atoms[self.ranks.rank() + 1]
+        self.atoms[self.rank]..self.atoms[self.rank + 1]
     }
 
     fn triangle_count(&self) -> usize {
-        self.triangles[self.ranks.count()]
+        self.triangles[self.triangles.len() - 1]
     }
 
     /// My elements: triangles and atoms.
@@ -182,5 +207,78 @@ impl Domain {
 
     fn starts_of_triangle_nodes(&self) -> Vec<usize> {
         self.triangles.iter().map(|triangle| 3 * triangle).collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Plan;
+    use crate::mesh::region::{Region, Shape};
+    use crate::mesh::sites::Layout;
+
+    fn mixed_mesh() -> Mesh {
+        let layout = Layout {
+            block: 10,
+            rows: 8,
+            triangles: 21,
+        };
+        let band = Region {
+            shape: Shape::Band { half_width: 12.0 },
+            element: 1,
+        };
+        Mesh::new(&Plan {
+            layout,
+            element: 10,
+            regions: vec![band],
+            crack_length: None,
+            grip_rows: 10,
+            spacing: 1.0,
+        })
+    }
+
+    #[test]
+    fn every_element_and_node_belongs_to_one_rank_which_all_know() {
+        let mesh = mixed_mesh();
+        for count in [1, 2, 3, 7, 50] {
+            let parts: Vec<Domain> = (0..count)
+                .map(|rank| Domain::part(Ranks::alone(), [rank, count], &mesh, |_| 1.0))
+                .collect();
+            let mut owners = vec![Vec::new(); mesh.node_count()];
+            for (rank, part) in parts.iter().enumerate() {
+                for element in part.elements().into_iter().flatten() {
+                    assert!(part.is_mine(element));
+                    assert!(parts.iter().all(|other| other.owner(element) == rank));
+                }
+                part.nodes().into_iter().flatten().for_each(|node| owners[node].push(rank));
+            }
+            assert!(owners.iter().all(|owners| owners.len() == 1), "{count} ranks");
+            let largest = parts.iter().map(|part| part.atoms().len()).max().unwrap_or(0);
+            let share = (mesh.elements.len() - mesh.triangles).div_ceil(count);
+            assert!(largest <= share + 1, "{count} ranks: {largest} atoms for {share}");
+        }
+    }
+
+    #[test]
+    fn a_cut_follows_what_was_measured() {
+        let mesh = mixed_mesh();
+        let part = |rank| Domain::part(Ranks::alone(), [rank, 4], &mesh, |_| 1.0);
+        let atoms = mesh.elements.len() - mesh.triangles;
+        let mut domain = part(0);
+        // The first quarter of the atoms costs three times as much as any other, so that it is half of the whole.
+        domain.cut_anew(&mesh, |_| 1.0, [&[1.0; 4], &[3.0, 1.0, 1.0, 1.0]]);
+        let share = domain.atoms().len() as f64 / atoms as f64;
+        assert!((share - 0.125).abs() < 0.01, "{share}");
+        assert_eq!(domain.triangles(), part(0).triangles());
+    }
+
+    #[test]
+    fn what_is_called_is_heard_once() {
+        let mut domain = Domain::new(Ranks::alone(), &mixed_mesh(), |_| 1.0);
+        domain.call(Call::Stop);
+        assert!(!domain.hears(Call::Stop), "not before all have agreed");
+        domain.agree();
+        assert!(!domain.hears(Call::Checkpoint));
+        assert!(domain.hears(Call::Stop) && !domain.hears(Call::Stop));
     }
 }

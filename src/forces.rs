@@ -96,6 +96,9 @@ pub struct Forces {
     search_time: Duration,
     exchanges: u64,
     exchange_time: Duration,
+    /// Seconds that tiles and contacts have taken since the ranks last compared, and those of all ranks then.
+    spent: [f64; 2],
+    spent_by_all: Vec<f64>,
 }
 
 impl Forces {
@@ -160,6 +163,8 @@ impl Forces {
             search_time: Duration::ZERO,
             exchanges: 0,
             exchange_time: Duration::ZERO,
+            spent: [0.0; 2],
+            spent_by_all: Vec::new(),
         };
         let severed = (0..).zip(&forces.interfaces.pairs).filter(|(_, pair)| pair.severed);
         let severed: Vec<u32> = severed.map(|(number, _)| number).collect();

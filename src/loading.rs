@@ -176,7 +176,7 @@ mod tests {
         state.force[1][0] = 3.0;
         state.force[1][last] = -3.0;
         assert_eq!(loading.grip_force(&state), 3.0);
-        let mut impulse = Impulse::new(&loading, &[0..state.nodes()]);
+        let mut impulse = Impulse::new(&loading, &state.every_node());
         impulse.add(&state, 2.0);
         let [low, high] = mesh.grip_edges();
         let way = 2.0 * 1e-3 * (high - low);

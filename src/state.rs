@@ -1,5 +1,7 @@
 //! The state of a specimen in motion.
 
+use std::ops::Range;
+
 use crate::lanes;
 
 /// Positions, velocities, forces and masses of the nodes, a plane (x, y) each. Units nm, ps, eV.
@@ -47,6 +49,11 @@ impl State {
 
     pub fn nodes(&self) -> usize {
         self.mass.len()
+    }
+
+    /// All nodes, as one range.
+    pub fn every_node(&self) -> [Range<usize>; 1] {
+        std::array::from_fn(|_| 0..self.nodes())
     }
 
     /// Kinetic energy, v^T M v/2, eV.

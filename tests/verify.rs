@@ -3,6 +3,7 @@
 mod verify {
     mod gates;
     mod lammps;
+    mod ranks;
     mod slurm;
     #[path = "../suite/specimens.rs"]
     mod specimens;

@@ -17,6 +17,7 @@ pub struct Halo {
 #[derive(Debug, Default)]
 pub struct Parcel {
     /// The other rank.
+    #[cfg_attr(not(feature = "mpi"), expect(dead_code, reason = "without MPI there are no others"))]
     pub peer: usize,
     nodes: Vec<Range<usize>>,
     /// x of the nodes, then y.
@@ -98,7 +99,7 @@ impl Parcel {
 
 /// Ascending elements, sorted by the rank that computes them.
 fn by_owner(domain: &Domain, elements: &[u32]) -> Vec<Vec<u32>> {
-    let mut lists = vec![Vec::new(); domain.ranks.count()];
+    let mut lists = vec![Vec::new(); domain.triangles.len() - 1];
     elements
         .iter()
         .for_each(|&element| lists[domain.owner(element as usize)].push(element));
@@ -115,4 +116,29 @@ fn ranges(domain: &Domain, elements: &[u32]) -> Vec<Range<usize>> {
         }
     }
     ranges
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parcels_carry_positions_to_the_same_places() {
+        let nodes = vec![3..9, 30..31];
+        let mut parcel = Parcel {
+            peer: 1,
+            nodes: nodes.clone(),
+            numbers: Vec::new(),
+        };
+        let here = [0, 1000].map(|start| (start..start + 40).map(f64::from).collect::<Vec<_>>());
+        let mut there = here.clone().map(|plane| vec![0.0; plane.len()]);
+        parcel.pack(&here);
+        parcel.unpack(&mut there);
+        for axis in 0..2 {
+            for node in 0..40 {
+                let carried = nodes.iter().any(|range| range.contains(&node));
+                assert_eq!(there[axis][node], if carried { here[axis][node] } else { 0.0 });
+            }
+        }
+    }
 }

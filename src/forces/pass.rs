@@ -70,7 +70,9 @@ impl Forces {
                     mesh: &self.mesh,
                     domain: &self.domain,
                 };
+                let start = Instant::now();
                 disturbed = self.contacts.sum::<S, MEASURED>(&field, position, force, measure);
+                self.spent[1] += start.elapsed().as_secs_f64();
                 if !disturbed.is_empty() {
                     self.domain.call(Call::ListOutdated);
                 }
@@ -119,12 +121,14 @@ impl Forces {
             computing = start.elapsed();
             irregular
         });
-        self.exchange_time += start.elapsed() - computing;
+        let arrived = Instant::now();
+        self.exchange_time += arrived - start - computing;
         for triangles in halo.triangles(&self.domain) {
             self.maps.update(position, triangles);
         }
         self.halo = halo;
         irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &at_border));
+        self.spent[0] += (computing + arrived.elapsed()).as_secs_f64();
         irregular
     }
 

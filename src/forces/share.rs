@@ -1,7 +1,8 @@
 //! What falls to each rank, and what it needs of others.
 
 use super::contact::lattice::AtomLattice;
-use crate::domain::Domain;
+use super::{Forces, tile};
+use crate::domain::{Domain, Halo};
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
 
@@ -10,6 +11,44 @@ use crate::mesh::interfaces::Interfaces;
 const TRIANGLE: f64 = 0.2;
 const EDGE_SITE: f64 = 0.015;
 const SEARCHED_SITE: f64 = 0.1;
+
+/// By how much the work of the busiest rank may exceed the mean before the specimen is cut anew.
+const IMBALANCE: f64 = 0.1;
+
+impl Forces {
+    /// Whether some rank has had much more to do than the others since this was last asked. All ranks ask together, and
+    /// get the same answer.
+    pub fn is_unbalanced(&mut self) -> bool {
+        let ranks = self.domain.ranks();
+        let spent = std::mem::take(&mut self.spent);
+        if ranks.count() == 1 {
+            return false;
+        }
+        let mut slots = vec![0.0; 2 * ranks.count()];
+        let has_atoms = self.mesh.elements.len() > self.mesh.triangles;
+        // Contacts are mostly those of atoms, if there are any.
+        let [of_triangles, of_atoms] = if has_atoms { spent } else { [spent[0] + spent[1], 0.0] };
+        slots[ranks.rank()] = of_triangles;
+        slots[ranks.count() + ranks.rank()] = of_atoms;
+        self.spent_by_all = ranks.merge(&slots);
+        let (triangles, atoms) = self.spent_by_all.split_at(ranks.count());
+        let works: Vec<f64> = triangles.iter().zip(atoms).map(|(a, b)| a + b).collect();
+        let most = works.iter().copied().fold(0.0, f64::max);
+        most * works.len() as f64 > (1.0 + IMBALANCE) * works.iter().sum::<f64>()
+    }
+
+    /// Cuts the specimen anew, after [`Self::is_unbalanced`]. All ranks must have shared the state of all nodes.
+    pub fn cut_anew(&mut self) {
+        let spent = self.spent_by_all.split_at(self.domain.ranks().count()).into();
+        let costs = costs(&self.mesh, &self.interfaces);
+        self.domain.cut_anew(&self.mesh, costs, spent);
+        self.tiles = tile::tiles(&self.mesh, &self.interfaces, &self.strings, self.domain.triangles());
+        self.bordering = bordering(&self.domain, &self.mesh, &self.interfaces, &self.atoms);
+        self.halo = Halo::ask(&self.domain, &self.bordering);
+        self.watch(std::iter::empty());
+        self.contacts.forget();
+    }
+}
 
 /// Estimates what an element costs in a step.
 pub fn costs<'a>(mesh: &'a Mesh, interfaces: &'a Interfaces) -> impl Fn(usize) -> f64 + Copy + use<'a> {

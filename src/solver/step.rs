@@ -6,6 +6,7 @@ use super::schedule::Schedule;
 use super::{Phase, Solver, SolverError, time_step};
 use crate::forces::ForceError;
 use crate::integrator;
+use crate::loading::Impulse;
 use crate::state::State;
 
 impl Solver {
@@ -47,8 +48,32 @@ impl Solver {
             let adapted = self.settings.time_step.adapt(self.time_step, self.stability_limit);
             self.time_step = adapted.ok_or_else(|| self.step_unstable())?;
             self.cost.book(Phase::Stability, &mut clock);
+            self.balance_ranks();
+            self.cost.book(Phase::Exchange, &mut clock);
         }
         Ok(())
+    }
+
+    /// Cuts the specimen anew where some rank has had too much to do. It leaves no trace in the results.
+    fn balance_ranks(&mut self) {
+        if !self.forces.is_unbalanced() {
+            return;
+        }
+        let domain = self.forces.domain();
+        let State {
+            position,
+            velocity,
+            force,
+            ..
+        } = &mut self.state;
+        let planes = position.iter_mut().chain(velocity).chain(force);
+        planes.for_each(|plane| domain.share_nodes(plane));
+        let impulses = self.grip_impulse.gathered(domain.ranks());
+        self.forces.cut_anew();
+        self.grip_impulse = Impulse::new(&self.loading, &self.forces.domain().nodes());
+        self.grip_impulse.restore(&impulses);
+        // What elements hold is known to the ranks that computed them before.
+        self.measured = false;
     }
 
     /// Forces at the present positions, and what elements hold if it is asked for.

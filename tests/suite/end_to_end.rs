@@ -5,6 +5,7 @@ mod failure;
 mod interrupt;
 mod kill;
 mod quickstart;
+mod ranks;
 mod repeat;
 mod threads;
 

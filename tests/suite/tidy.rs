@@ -8,7 +8,7 @@ const FLOORS: [&[&str]; 10] = [
     &["units", "lanes"],
     &["lattice", "potential", "study"],
     &["mesh", "material", "plan"],
-    &["state", "store"],
+    &["state", "domain", "store"],
     &["forces", "integrator", "loading", "analysis", "executor"],
     &["relaxation"],
     &["solver"],
@@ -18,12 +18,13 @@ const FLOORS: [&[&str]; 10] = [
 ];
 
 /// What stands for a crate or a system service in the text of a source file, and the modules that may use it.
-const OWNERS: [(&str, &[&str]); 10] = [
+const OWNERS: [(&str, &[&str]); 11] = [
     ("polars", &["report"]),
     ("plotters", &["report"]),
     ("hdf5::", &["record"]),
     ("serde_saphyr", &["study"]),
     ("csv::", &["plan"]),
+    ("use mpi::", &["domain"]),
     ("Command::new(", &["executor"]),
     ("remove_dir", &["store"]),
     ("fs::rename", &["store", "record"]),

@@ -16,15 +16,15 @@ fn a_checkpoint_reads_back_to_the_bit() {
     let signalling = f64::from_bits(0xfff0_0000_0000_0001);
     let mut written = some_checkpoint(500);
     written.velocity[1][3] = quiet_with_payload;
-    written.work = signalling;
+    written.peak_work = signalling;
     checkpoint::write(&path, "abc", &written).unwrap();
 
     let mut read = checkpoint::read(&path, "abc").unwrap();
     assert_eq!(read.velocity[1][3].to_bits(), quiet_with_payload.to_bits());
-    assert_eq!(read.work.to_bits(), signalling.to_bits());
+    assert_eq!(read.peak_work.to_bits(), signalling.to_bits());
     for checkpoint in [&mut read, &mut written] {
         checkpoint.velocity[1][3] = 0.0;
-        checkpoint.work = 0.0;
+        checkpoint.peak_work = 0.0;
     }
     assert_eq!(read, written);
 }

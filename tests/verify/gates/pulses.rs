@@ -49,12 +49,13 @@ fn speed(along: usize, displaced: usize, expected: f64) -> f64 {
             .expect("the bar is sound");
     };
     compute(&mut state);
+    let nodes = state.every_node();
     let mut time = 0.0;
     let moments = READ_AFTER.map(|distance| {
         while time * expected < distance * material.spacing {
-            kick_and_drift(&mut state, 1, TIME_STEP);
+            kick_and_drift(&mut state, &nodes, 1, TIME_STEP);
             compute(&mut state);
-            kick(&mut state, 0.5 * TIME_STEP);
+            kick(&mut state, &nodes, 0.5 * TIME_STEP);
             time += TIME_STEP;
         }
         let ahead = (0..state.nodes()).filter(|&node| !ghosts.holds(node) && reference[along][node] > middle);

@@ -50,7 +50,7 @@ impl Measured {
                 .compute(&mut state.position, &mut state.force)
                 .expect("the patch is sound");
             state.velocity.iter_mut().for_each(|plane| plane.fill(0.0));
-            kick(state, 1.0);
+            kick(state, &state.every_node(), 1.0);
             state.velocity.clone()
         };
         let mut answers = Vec::new();
