@@ -96,7 +96,10 @@ impl Domain {
     pub fn cut_anew(&mut self, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy, spent: [&[f64]; 2]) {
         let count = self.triangles.len() - 1;
         let first_atom = mesh.triangles;
-        let classes = [(&mut self.triangles, 0, spent[0]), (&mut self.atoms, first_atom, spent[1])];
+        let classes = [
+            (&mut self.triangles, 0, spent[0]),
+            (&mut self.atoms, first_atom, spent[1]),
+        ];
         for (starts, first, spent) in classes {
             let costs = starts.windows(2).zip(spent).flat_map(|(ends, &spent)| {
                 let elements = first + ends[0]..first + ends[1];
@@ -250,7 +253,10 @@ mod tests {
                     assert!(part.is_mine(element));
                     assert!(parts.iter().all(|other| other.owner(element) == rank));
                 }
-                part.nodes().into_iter().flatten().for_each(|node| owners[node].push(rank));
+                part.nodes()
+                    .into_iter()
+                    .flatten()
+                    .for_each(|node| owners[node].push(rank));
             }
             assert!(owners.iter().all(|owners| owners.len() == 1), "{count} ranks");
             let largest = parts.iter().map(|part| part.atoms().len()).max().unwrap_or(0);

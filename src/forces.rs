@@ -14,12 +14,12 @@ mod contact;
 mod interface;
 mod maps;
 mod measure;
-mod pass;
 pub mod referee;
 mod regular;
 mod share;
 mod stiffness;
 mod summation;
+mod sums;
 mod tile;
 
 pub use affine::{Affine, site_position};
@@ -247,7 +247,9 @@ impl Forces {
         let triangles = self.domain.triangles();
         let is_mine = |number: usize| {
             let pair = self.interfaces.pairs[number];
-            [pair.first, pair.second].iter().any(|&triangle| triangles.contains(&(triangle as usize)))
+            [pair.first, pair.second]
+                .iter()
+                .any(|&triangle| triangles.contains(&(triangle as usize)))
         };
         let is_watched = |&number: &u32| !self.is_open(number as usize) && is_mine(number as usize);
         let mut watched: Vec<u32> = of_those.filter(is_watched).collect();

@@ -54,9 +54,16 @@ impl Halo {
     }
 
     /// Brings the positions of others' nodes up to date while some work is done that does not need them.
-    pub fn exchange<T>(&mut self, domain: &Domain, position: &mut [Vec<f64>; 2], work: impl FnOnce(&[Vec<f64>; 2]) -> T) -> T {
+    pub fn exchange<T>(
+        &mut self,
+        domain: &Domain,
+        position: &mut [Vec<f64>; 2],
+        work: impl FnOnce(&[Vec<f64>; 2]) -> T,
+    ) -> T {
         self.outgoing.iter_mut().for_each(|parcel| parcel.pack(position));
-        let done = domain.ranks.exchange(&self.outgoing, &mut self.incoming, || work(position));
+        let done = domain
+            .ranks
+            .exchange(&self.outgoing, &mut self.incoming, || work(position));
         self.incoming.iter().for_each(|parcel| parcel.unpack(position));
         done
     }

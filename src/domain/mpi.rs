@@ -36,7 +36,10 @@ pub fn start() -> Result<(Ranks, Session), DomainError> {
     match mpirun_ranks() {
         Some(started) if started > 1 && ranks.count == 1 => {
             let library = library().expect("it has just been started");
-            return Err(DomainError::OtherMpi { ranks: started, library });
+            return Err(DomainError::OtherMpi {
+                ranks: started,
+                library,
+            });
         }
         _ => {}
     }

@@ -49,9 +49,8 @@ impl Forces {
 
     fn largest(&self, state: &State, one_by_one: bool) -> f64 {
         let tasks = self.tasks().into_par_iter();
-        let bounds = tasks.map(
-            |task| with_law!(self.material.interaction, law => self.largest_of(&law, task, state, one_by_one)),
-        );
+        let bounds = tasks
+            .map(|task| with_law!(self.material.interaction, law => self.largest_of(&law, task, state, one_by_one)));
         self.domain.ranks().largest(bounds.reduce(|| 0.0, f64::max))
     }
 

@@ -39,10 +39,7 @@ impl Solver {
     fn gather(&mut self) {
         self.gather_motion();
         let domain = self.forces.domain();
-        self.state
-            .force
-            .iter_mut()
-            .for_each(|plane| domain.gather_nodes(plane));
+        self.state.force.iter_mut().for_each(|plane| domain.gather_nodes(plane));
         self.measure.gather(domain);
         self.grip_impulses = self.grip_impulse.gathered(domain.ranks());
     }
@@ -60,12 +57,7 @@ impl Solver {
         Ok(())
     }
 
-    fn give<O: Observer>(
-        &mut self,
-        observer: &mut O,
-        probe: bool,
-        snapshot: bool,
-    ) -> Result<(), RunError<O::Error>> {
+    fn give<O: Observer>(&mut self, observer: &mut O, probe: bool, snapshot: bool) -> Result<(), RunError<O::Error>> {
         if probe {
             self.probe(observer)?;
         }

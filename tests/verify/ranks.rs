@@ -39,7 +39,11 @@ const RESULTS: [&str; 3] = ["checkpoint.h5", "series.h5", "fields.vtkhdf"];
 /// Runs so many ranks of the solver with MPI, and returns the folder.
 fn solve(case: &Path, ranks: u32, threads: u32) -> PathBuf {
     let solver = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/mpi/cgaft-solve");
-    assert!(solver.exists(), "{} is needed; type `make test-setup`", solver.display());
+    assert!(
+        solver.exists(),
+        "{} is needed; type `make test-setup`",
+        solver.display()
+    );
     let into = case.with_extension(format!("{ranks}x{threads}"));
     let status = Command::new("timeout")
         .args(["--kill-after=5", "600", "mpirun", "-q", "-n", &ranks.to_string()])
@@ -76,7 +80,11 @@ fn every_number_of_ranks_and_threads_computes_the_same_bytes_by_every_rule() {
                 let together = solve(&case, ranks, threads);
                 for name in RESULTS {
                     let [own, other] = [&together, &alone].map(|run| fs::read(run.join(name)).unwrap());
-                    assert!(own == other, "{}: {name} of {ranks} ranks x {threads} threads", planned.name);
+                    assert!(
+                        own == other,
+                        "{}: {name} of {ranks} ranks x {threads} threads",
+                        planned.name
+                    );
                 }
             }
         }

@@ -132,9 +132,14 @@ impl Contacts {
         let mut contacts = Self::from_lists(field, lattice, &atoms, &candidates, &lists);
         let first_atom = 3 * field.mesh.triangles as u32;
         let [my_triangles, my_atoms] = [field.domain.triangles(), field.domain.atoms()];
-        let mine = triangles.iter().filter(|&&triangle| my_triangles.contains(&(triangle as usize)));
+        let mine = triangles
+            .iter()
+            .filter(|&&triangle| my_triangles.contains(&(triangle as usize)));
         let of_triangles = mine.flat_map(|triangle| 3 * triangle..3 * triangle + 3);
-        let mine = atoms.candidates.iter().filter(|&&atom| my_atoms.contains(&(atom as usize)));
+        let mine = atoms
+            .candidates
+            .iter()
+            .filter(|&&atom| my_atoms.contains(&(atom as usize)));
         let of_atoms = mine.map(|atom| first_atom + atom);
         contacts.nodes = of_triangles.chain(of_atoms).collect();
         let place = |&node: &u32| [0, 1].map(|axis: usize| position[axis][node as usize]);

@@ -90,7 +90,9 @@ fn a_checkpoint_of_some_ranks_goes_on_with_any_other_number_to_the_same_bytes() 
         let errors = String::from_utf8_lossy(&said.stderr);
         assert_eq!(said.status.code(), Some(130), "{count} ranks: {errors}");
     }
-    let said = Program::start(&mut ranks(4, &case, &into, &[]), &place).wait(PATIENCE).succeeded();
+    let said = Program::start(&mut ranks(4, &case, &into, &[]), &place)
+        .wait(PATIENCE)
+        .succeeded();
     assert!(said.stderr.contains("going on from step "), "{}", said.stderr);
     assert_same_results(&into, &run);
 }
@@ -110,7 +112,9 @@ fn a_rank_that_is_killed_ends_the_job_and_the_checkpoint_is_still_good() {
     assert!(start.elapsed() < SECONDS_TO_END, "{:?}", start.elapsed());
     assert!(!job.wait(PATIENCE).status.success());
     assert!(solvers.iter().all(|&solver| !is_at_work(solver)));
-    Program::start(&mut ranks(2, &case, &into, &[]), &place).wait(PATIENCE).succeeded();
+    Program::start(&mut ranks(2, &case, &into, &[]), &place)
+        .wait(PATIENCE)
+        .succeeded();
     assert_same_results(&into, &run);
 }
 
@@ -140,7 +144,9 @@ fn physics_that_fails_on_any_rank_is_told_once_with_step_and_place() {
     assert_ne!(text, wild, "{text}");
     fs::write(&case, wild).unwrap();
     let into = place.path("wild");
-    let said = Program::start(&mut ranks(3, &case, &into, &[]), &place).wait(PATIENCE).ended_with(4);
+    let said = Program::start(&mut ranks(3, &case, &into, &[]), &place)
+        .wait(PATIENCE)
+        .ended_with(4);
     let told = said.stderr.matches("error: step ").count();
     assert!(told == 1 && said.stderr.contains("kept in"), "{}", said.stderr);
     assert!(into.join("series.h5").exists());
@@ -180,7 +186,11 @@ fn descendants(process: u32) -> Vec<u32> {
     let children = children.split_whitespace().map(|number| number.parse::<u32>().unwrap());
     let each = children.flat_map(|child| {
         let name = fs::read_to_string(format!("/proc/{child}/comm")).unwrap_or_default();
-        if name.trim() == "cgaft-solve" { vec![child] } else { descendants(child) }
+        if name.trim() == "cgaft-solve" {
+            vec![child]
+        } else {
+            descendants(child)
+        }
     });
     each.collect()
 }

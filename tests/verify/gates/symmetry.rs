@@ -86,11 +86,12 @@ fn a_centre_crack_stays_symmetric_until_it_starts() {
             forces.broken_bonds(&state.position).len()
         };
         compute(&mut state);
+        let nodes = state.every_node();
         let [mut until_start, mut later, mut time, mut broken] = [0.0f64, 0.0, 0.0, 0.0];
         while broken < 40.0 && time * RATE < 0.1 {
-            kick_and_drift(&mut state, 1, step);
+            kick_and_drift(&mut state, &nodes, 1, step);
             broken = compute(&mut state) as f64;
-            kick(&mut state, 0.5 * step);
+            kick(&mut state, &nodes, 0.5 * step);
             time += step;
             let departure = departure(&state, &reference, &partners, material.spacing);
             if broken == 0.0 {

@@ -155,11 +155,7 @@ impl Forces {
         let mine = self.domain.triangles();
         let [length, count] = [tile::tile_length(mine.len()), self.tiles.len()];
         let [nodes, _] = self.domain.nodes();
-        let force = in_parts(
-            force.each_mut().map(|axis| &mut axis[nodes.clone()]),
-            3 * length,
-            count,
-        );
+        let force = in_parts(force.each_mut().map(|axis| &mut axis[nodes.clone()]), 3 * length, count);
         let [held, _] = measure.split(self.mesh.triangles);
         let held = held.map(|plane| contact::part_of(plane, &mine));
         let outputs = force.zip(in_parts(held, length, count));
