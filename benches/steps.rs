@@ -71,14 +71,14 @@ fn step(bencher: Bencher, element: u16) {
 #[divan::bench(args = [1, 10])]
 fn forces_energy_and_stress(bencher: Bencher, element: u16) {
     let mesh = slab(element);
-    let position = mesh.node_positions();
+    let mut position = mesh.node_positions();
     let mut force = mesh.node_positions();
     let atoms = mesh.sites.len();
     let mut forces = Forces::new(mesh, material());
     let mut measure = Measure::default();
     bencher.counter(ItemsCount::new(atoms)).bench_local(|| {
         forces
-            .compute_and_measure(&position, &mut force, &mut measure)
+            .compute_and_measure(&mut position, &mut force, &mut measure)
             .expect("the lattice is sound");
     });
 }
@@ -86,7 +86,7 @@ fn forces_energy_and_stress(bencher: Bencher, element: u16) {
 #[divan::bench(args = [1, 10])]
 fn broken_bonds(bencher: Bencher, element: u16) {
     let mesh = slab(element);
-    let position = mesh.node_positions();
+    let mut position = mesh.node_positions();
     let forces = Forces::new(mesh, material());
     bencher.bench_local(|| forces.broken_bonds(&position));
 }

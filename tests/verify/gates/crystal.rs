@@ -294,7 +294,9 @@ fn force_left_by_an_affine_strain(material: &Material, summation: Summation) -> 
         let position = displaced(&mesh, |[x, y]| [0.01 * x + 0.004 * y, -0.003 * x + 0.015 * y]);
         let mut force = zeros(&mesh);
         let mut forces = Forces::with_summation(mesh.clone(), *material, summation);
-        forces.compute(&mut position.clone(), &mut force).expect("the state is sound");
+        forces
+            .compute(&mut position.clone(), &mut force)
+            .expect("the state is sound");
         let shells = triangular::vectors_within(1.05 * material.interaction.cutoff() / material.spacing);
         let is_inside = |site: [i32; 2]| {
             let mut neighbours = shells.iter().map(|v| [site[0] + v[0], site[1] + v[1]]);

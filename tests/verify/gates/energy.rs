@@ -29,7 +29,9 @@ fn without_touching_faces(mut mesh: Mesh, state: &str) -> Mesh {
 fn force_of(mesh: &Mesh, material: &Material, summation: Summation, position: &Planes) -> Planes {
     let mut force = zeros(mesh);
     let mut forces = Forces::with_summation(mesh.clone(), *material, summation);
-    forces.compute(&mut position.clone(), &mut force).expect("the state is sound");
+    forces
+        .compute(&mut position.clone(), &mut force)
+        .expect("the state is sound");
     force
 }
 
@@ -95,7 +97,9 @@ fn every_rule_of_summation_is_the_gradient_of_its_own_energy() {
                 let mesh = without_touching_faces(mesh.clone(), state);
                 let mut forces = Forces::with_summation(mesh.clone(), material, summation);
                 let mut force = zeros(&mesh);
-                forces.compute(&mut position.clone(), &mut force).expect("the state is sound");
+                forces
+                    .compute(&mut position.clone(), &mut force)
+                    .expect("the state is sound");
                 let scale = bond_strength(&material).max(largest(&force));
                 for sample in 0..SAMPLES {
                     let node = (0.5 * (1.0 + noise.next()) * (mesh.node_count() - 1) as f64) as usize;
