@@ -67,6 +67,7 @@ lint: setup
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --locked --all-targets -- -D warnings
 	$(CARGO) clippy --release --locked --test verify -- -D warnings
+	@! command -v mpicc >/dev/null || $(CARGO) clippy --release --locked --bin cgaft-solve --features mpi -- -D warnings
 	.ci/shared-crates
 
 schema: build

@@ -86,7 +86,7 @@ fn forces_energy_and_stress(bencher: Bencher, element: u16) {
 #[divan::bench(args = [1, 10])]
 fn broken_bonds(bencher: Bencher, element: u16) {
     let mesh = slab(element);
-    let mut position = mesh.node_positions();
+    let position = mesh.node_positions();
     let forces = Forces::new(mesh, material());
     bencher.bench_local(|| forces.broken_bonds(&position));
 }
