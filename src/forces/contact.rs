@@ -5,6 +5,7 @@
 //! those beyond the cutoff add nothing, so the moment at which a list was made leaves no trace in the result.
 
 pub mod lattice;
+mod near;
 mod partners;
 mod search;
 mod sums;

@@ -8,6 +8,7 @@ use super::super::summation::Summation;
 use super::super::{CHUNK, Planes};
 use super::Contacts;
 use super::lattice::{AtomLattice, Surroundings, pair_along};
+use super::near::{Bounds, Corners, are_apart, is_apart_from};
 use super::partners::{PairKind, Partner};
 use crate::domain::Domain;
 use crate::material::Material;
@@ -40,38 +41,32 @@ impl Field<'_> {
     }
 
     /// Those of some triangles that may come within a distance of other triangles to which no intact interface joins them,
-    /// or of atoms.
-    fn meeting(&self, triangles: &[u32], atoms: &[u32], distance: f64, position: &Planes) -> Vec<u32> {
-        let corners = |triangle: u32, axis: usize| &position[axis][3 * triangle as usize..3 * triangle as usize + 3];
-        let range = |triangle: u32, axis: usize| {
-            let corners = corners(triangle, axis).iter();
-            corners.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], &x| {
-                [low.min(x), high.max(x)]
-            })
+    /// or of atoms, and what bounds all that they meet.
+    fn meeting(&self, triangles: &[u32], atoms: &[u32], distance: f64, position: &Planes) -> Vec<(u32, Bounds)> {
+        let corners_of = |&triangle: &u32| {
+            let first = 3 * triangle as usize;
+            [0, 1, 2].map(|corner| [0, 1].map(|axis: usize| position[axis][first + corner]))
         };
-        let boxes: Vec<[[f64; 2]; 2]> = triangles
-            .iter()
-            .map(|&number| [range(number, 0), range(number, 1)])
-            .collect();
-        let largest = boxes
-            .iter()
-            .flatten()
-            .fold(0.0, |most: f64, [low, high]| most.max(high - low));
-        let centre = |sides: &[[f64; 2]; 2]| sides.map(|[low, high]| 0.5 * (low + high));
-        let centres: Vec<[f64; 2]> = boxes.iter().map(centre).collect();
-        let grid = Grid::new(&centres, largest + distance);
-        let gap = |one: [f64; 2], other: [f64; 2]| (one[0] - other[1]).max(other[0] - one[1]);
-        let are_near =
-            |one: &[[f64; 2]; 2], other: &[[f64; 2]; 2]| (0..2).all(|axis| gap(one[axis], other[axis]) < distance);
-        let mut meets = vec![false; triangles.len()];
+        let corners: Vec<Corners> = triangles.iter().map(corners_of).collect();
+        let centre = |[a, b, c]: &Corners| [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0);
+        let centres: Vec<[f64; 2]> = corners.iter().map(centre).collect();
+        let reach = |(corners, centre): (&Corners, &[f64; 2])| {
+            let from_centre = corners
+                .iter()
+                .map(|corner| (corner[0] - centre[0]).hypot(corner[1] - centre[1]));
+            from_centre.fold(0.0, f64::max)
+        };
+        let farthest = corners.iter().zip(&centres).map(reach).fold(0.0, f64::max);
+        let grid = Grid::new(&centres, 2.0 * farthest + distance);
+        let mut met = vec![Bounds::NOTHING; triangles.len()];
         for one in 0..triangles.len() {
             grid.for_each_near(centres[one], |other| {
                 if other > one
-                    && are_near(&boxes[one], &boxes[other])
+                    && !are_apart(&corners[one], &corners[other], distance)
                     && !self.summed_elsewhere(triangles[one], triangles[other])
                 {
-                    meets[one] = true;
-                    meets[other] = true;
+                    met[one].include(&corners[other]);
+                    met[other].include(&corners[one]);
                 }
             });
         }
@@ -79,15 +74,13 @@ impl Field<'_> {
             let node = 3 * self.mesh.triangles + atom as usize;
             let place = [position[0][node], position[1][node]];
             grid.for_each_near(place, |triangle| {
-                meets[triangle] |= are_near(&boxes[triangle], &place.map(|x| [x, x]));
+                if !is_apart_from(&corners[triangle], place, distance) {
+                    met[triangle].include(&[place]);
+                }
             });
         }
-        triangles
-            .iter()
-            .zip(meets)
-            .filter(|&(_, meets)| meets)
-            .map(|(&triangle, _)| triangle)
-            .collect()
+        let triangles = triangles.iter().copied().zip(met);
+        triangles.filter(|(_, met)| !met.are_nothing()).collect()
     }
 
     /// Whether pairs of sites of these elements are summed elsewhere: inside a triangle or along intact strings.
@@ -126,7 +119,7 @@ impl Contacts {
         let triangles = field.searched();
         let atoms = lattice.surroundings(field.mesh, position);
         let meeting = field.meeting(&triangles, &atoms.candidates, radius, position);
-        let candidates = Candidates::new(field.mesh, &meeting, &atoms.candidates, position);
+        let candidates = Candidates::new(field.mesh, &meeting, radius, &atoms.candidates, position);
         let grid = Grid::new(&candidates.position, radius);
         let lists = candidates.partner_lists(field, lattice, &atoms, &grid, radius);
         let mut contacts = Self::from_lists(field, lattice, &atoms, &candidates, &lists);
@@ -229,22 +222,29 @@ impl Contacts {
 }
 
 impl Candidates {
-    fn new(mesh: &Mesh, triangles: &[u32], atoms: &[u32], position: &Planes) -> Self {
+    /// Atoms, and the sites of triangles within a distance of what these meet.
+    fn new(mesh: &Mesh, meeting: &[(u32, Bounds)], distance: f64, atoms: &[u32], nodes: &Planes) -> Self {
         let mut element = Vec::new();
         let mut local = Vec::new();
-        for &triangle in triangles {
-            for [p, q] in mesh.elements[triangle as usize].locals() {
-                element.push(triangle);
-                local.push([p as i16, q as i16]);
+        let mut position = Vec::new();
+        for &(triangle, met) in meeting {
+            for site in mesh.elements[triangle as usize].locals() {
+                let place = site_position(mesh, triangle as usize, site, nodes);
+                if met.are_within(distance, place) {
+                    element.push(triangle);
+                    local.push(site.map(|k| k as i16));
+                    position.push(place);
+                }
             }
         }
         let carried = element.len();
         element.extend(atoms.iter().map(|&atom| mesh.triangles as u32 + atom));
         local.resize(element.len(), [0, 0]);
-        let place = |(&element, local): (&u32, &[i16; 2])| {
-            site_position(mesh, element as usize, local.map(i32::from), position)
-        };
-        let position = element.par_iter().zip(&local).map(place).collect();
+        let of_atoms = element[carried..].iter().map(|&atom| {
+            let node = mesh.first_node(atom as usize);
+            [nodes[0][node], nodes[1][node]]
+        });
+        position.extend(of_atoms);
         Self {
             element,
             local,
@@ -309,14 +309,27 @@ impl Candidates {
     ) {
         let [x, y] = self.position[candidate];
         let limit = radius * radius;
+        let own = self.element[candidate];
         let site_of = |candidate: usize| {
             let element = &field.mesh.elements[self.element[candidate] as usize];
             element.site(self.local[candidate].map(i32::from))
         };
         let site = site_of(candidate);
+        // The sites of an element follow each other in a cell, so the last answer is often the next.
+        let mut last = (own, true);
+        let mut summed_elsewhere = |element: u32| {
+            if element != last.0 {
+                last = (element, field.summed_elsewhere(own, element));
+            }
+            last.1
+        };
         grid.for_each_near([x, y], |other| {
+            let element = self.element[other];
+            if element == own {
+                return;
+            }
             let [dx, dy] = [self.position[other][0] - x, self.position[other][1] - y];
-            if dx * dx + dy * dy < limit && !field.summed_elsewhere(self.element[candidate], self.element[other]) {
+            if dx * dx + dy * dy < limit && !summed_elsewhere(element) {
                 let there = site_of(other);
                 let pair = if field.mesh.severed(site, there) {
                     PairKind::Severed
