@@ -4,11 +4,12 @@ use std::thread;
 
 use super::{CliError, format, terminal};
 use crate::executor::launch;
+use crate::executor::mpi::{self, Speaks};
 use crate::executor::probe::output_of;
 
 /// `cgaft doctor`: a line each, with what to do where something is missing.
 pub fn doctor() -> Result<u8, CliError> {
-    let findings = [solver(), cores(), memory(), hdf5(), mpirun(), slurm(), python()];
+    let findings = [solver(), cores(), memory(), hdf5(), mpi(), slurm(), python()];
     let mark = |finding: &Finding| {
         if finding.needed_and_missing {
             "missing"
@@ -102,9 +103,28 @@ fn hdf5() -> Finding {
     version.map_or_else(|| optional("HDF5", advice), |version| found("HDF5", version))
 }
 
-fn mpirun() -> Finding {
-    let advice = "not found, and not needed in this version: cases use threads";
-    first_line("mpirun", &["--version"]).map_or_else(|| optional("mpirun", advice), |line| found("mpirun", line))
+/// Both the one who starts ranks and the one who is started must know MPI.
+fn mpi() -> Finding {
+    let solver = launch::find_solver().map_or(Speaks::Nothing, |solver| mpi::of_solver(&solver));
+    match (mpi::of_mpirun(), solver) {
+        (Some(mpirun), Speaks::Mpi(library)) => found("MPI", format!("{mpirun}, cgaft-solve built with {library}")),
+        (None, Speaks::Mpi(library)) => {
+            let words = format!(
+                "cgaft-solve built with {library}, but no mpirun on the PATH: cases use threads; for ranks, install \
+                 openmpi-bin"
+            );
+            optional("MPI", &words)
+        }
+        (Some(mpirun), _) => {
+            let words =
+                format!("{mpirun}, but cgaft-solve was built without MPI: cases use threads; for ranks, `make build`");
+            optional("MPI", &words)
+        }
+        (None, _) => optional(
+            "MPI",
+            "not found: cases use threads; for ranks, install openmpi-bin and `make build`",
+        ),
+    }
 }
 
 fn slurm() -> Finding {
