@@ -34,8 +34,6 @@ pub enum ExecutorError {
     NoSolver,
     #[error("cannot start {}: {source}; check that it is a program that this machine can run", program.display())]
     Start { program: PathBuf, source: io::Error },
-    #[error("cannot write {}: {source}; check the disk, or choose another folder with --results DIR", path.display())]
-    Log { path: PathBuf, source: io::Error },
     #[error(transparent)]
     Mpi(#[from] mpi::MpiError),
     #[error(transparent)]

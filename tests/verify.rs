@@ -2,7 +2,9 @@
 
 mod verify {
     mod gates;
+    mod kills;
     mod lammps;
+    mod ranks;
     mod slurm;
     #[path = "../suite/specimens.rs"]
     mod specimens;

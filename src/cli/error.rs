@@ -35,7 +35,7 @@ impl CliError {
             CliError::Store(store) | CliError::Executor(ExecutorError::Store(store)) if store.is_of_the_input() => {
                 exit::BAD_INPUT
             }
-            CliError::Executor(ExecutorError::Log { .. } | ExecutorError::Store(_)) => exit::OUTPUT_FAILED,
+            CliError::Executor(ExecutorError::Store(_)) => exit::OUTPUT_FAILED,
             CliError::Store(_) | CliError::Output { .. } | CliError::Report(_) => exit::OUTPUT_FAILED,
         }
     }

@@ -13,6 +13,7 @@ pub const INTERRUPTED: u8 = 130;
 /// Rust's own exit code after a panic.
 const PANICKED: i32 = 101;
 const SIGNAL_KILL: i32 = 9;
+const SIGNAL_FILE_SIZE: i32 = 25;
 
 /// What `mpirun` ends with where it has no better word.
 const OF_MPIRUN: i32 = 1;
@@ -93,6 +94,9 @@ impl Ended {
                 None => format!("the solver ended with exit code {code}"),
             },
             Ended::BySignal(SIGNAL_KILL) => "the solver was killed (signal 9); perhaps the memory was full".to_owned(),
+            Ended::BySignal(SIGNAL_FILE_SIZE) => {
+                "a file became larger than this shell allows (signal 25); `ulimit -f` tells how large".to_owned()
+            }
             Ended::BySignal(signal) => format!("the solver was ended by signal {signal}"),
             Ended::Unknown => "the solver ended in an unknown way".to_owned(),
         }

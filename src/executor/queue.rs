@@ -13,7 +13,7 @@ use super::exit::{self, Ended};
 use super::local::{self, Event, Running};
 use super::share::{Crew, Demand, Share};
 use super::{ExecutorError, Progress, Stop, launch, mpi};
-use crate::store::{Attempt, Claim, Failure, Manifest, Program, Reached, State, Store};
+use crate::store::{Attempt, Claim, Failure, Manifest, Program, Reached, State, Store, StoreError};
 
 /// A case to compute.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -330,10 +330,11 @@ fn open_log(folder: &Path, command: &launch::Launch) -> Result<File, ExecutorErr
         writeln!(log, "{} {command}", Timestamp::now().strftime("%F %T UTC"))?;
         Ok(log)
     };
-    open().map_err(|source| ExecutorError::Log {
+    let log = open().map_err(|source| StoreError::Write {
         path: path.clone(),
         source,
-    })
+    })?;
+    Ok(log)
 }
 
 /// The last lines of a log, of which only the end is shown.

@@ -108,7 +108,9 @@ fn resume(solver: &mut Solver, into: &Path, id: &str, warn: &mut (dyn FnMut(&str
     let checkpoint = match record::checkpoint::read(&path, id) {
         Ok(checkpoint) => checkpoint,
         Err(RecordError::Absent { .. }) => return Ok(record::cut_back(into, None)?),
-        Err(error @ RecordError::Damaged { .. }) => return start_afresh(into, &error, warn),
+        Err(error @ (RecordError::Damaged { .. } | RecordError::NotOurs { .. })) => {
+            return start_afresh(into, &error, warn);
+        }
         Err(error) => return Err(error.into()),
     };
     match solver.restore(&checkpoint) {
