@@ -5,6 +5,7 @@ use std::os::unix::fs::symlink;
 use std::path::Path;
 use std::process::Command;
 
+use super::interrupt::{checkpoints, signal, wait_for};
 use super::{STUDY, Said, Workspace, said};
 
 /// A study whose cases ask for ranks, in a folder with an mpirun of its own.
@@ -127,6 +128,29 @@ fn ranks_that_cannot_be_started_are_refused_before_anything_is() {
         "{}",
         doctor.stdout
     );
+}
+
+#[test]
+fn ctrl_c_reaches_the_first_rank_which_leaves_a_checkpoint() {
+    let ranks = Ranks::new();
+    let run = ranks
+        .command("run", &["--only", "A"])
+        .env("FAKE_SLOW", "study:")
+        .spawn()
+        .unwrap();
+    wait_for("the first rank", || ranks.place.starts().len() == 1);
+    signal(&run, "-INT");
+    let output = run.wait_with_output().unwrap();
+    assert_eq!(
+        output.status.code(),
+        Some(130),
+        "{}",
+        String::from_utf8_lossy(&output.stderr)
+    );
+    assert_eq!(checkpoints(&ranks.place), 1);
+    ranks.cgaft("run", &["--only", "A", "--ranks", "5"]).succeeded();
+    let log = fs::read_to_string(ranks.place.path("results/slab/cases/A/log.txt")).unwrap();
+    assert!(log.contains("mpirun -n 3 ") && log.contains("mpirun -n 5 "), "{log}");
 }
 
 #[test]

@@ -34,8 +34,8 @@ fn a_case_that_cannot_be_written_fails_with_advice_and_goes_on_when_there_is_roo
     place.cgaft("run", &["--only", "coarse"]).succeeded();
     let published = results(&place.case("coarse"));
 
-    // Larger than the files of the coarse case, smaller than the frames of the others.
-    let full = with_files_up_to(&place, 60, &[]).ended_with(1);
+    // Larger than the files of the coarse case, smaller than the frames of the others and than a picture of the report.
+    let full = with_files_up_to(&place, 60, &[]).ended_with(5);
     for told in [
         "atoms: failed: the output could not be written (exit code 5)",
         "could not be written: File too large; make room",
@@ -94,8 +94,10 @@ impl Drop for Disk {
     }
 }
 
-/// A disk that is full before the first file, in the middle of a case, and of the report.
+/// A disk that is full before the first file, and in the middle of one case and another, KiB.
 const SIZES: [u32; 4] = [4, 140, 700, 1300];
+/// Enough for the study twice over, KiB.
+const ROOM: u32 = 200_000;
 
 #[test]
 fn a_full_disk_ends_a_study_with_advice_and_one_with_room_finishes_it() {
@@ -109,7 +111,7 @@ fn a_full_disk_ends_a_study_with_advice_and_one_with_room_finishes_it() {
         let full = place.cgaft("run", &["--threads", "1"]).ended_with(5);
         assert!(full.stderr.contains("No space left on device"), "{}", full.stderr);
         let done = place.states().iter().filter(|state| *state == "done").count();
-        disk.grow(20_000);
+        disk.grow(ROOM);
         let again = place.cgaft("run", &[]).succeeded();
         assert_eq!(
             again.stdout.matches(": done (unchanged)").count(),
