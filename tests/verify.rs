@@ -4,7 +4,7 @@ mod verify {
     mod gates;
     mod kills;
     mod lammps;
-    mod ranks;
+    mod mpi_solver;
     mod slurm;
     #[path = "../suite/specimens.rs"]
     mod specimens;

@@ -11,7 +11,7 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
-use super::ranks::solver_speaks_mpi;
+use super::mpi_solver::solver_with_mpi;
 
 const STUDY: &str = include_str!("../studies/slab.yaml");
 const CASES: [&str; 3] = ["coarse", "mixed", "atoms"];
@@ -51,11 +51,12 @@ const VICTIMS: [Victim; 4] = [Victim::Rank, Victim::Started, Victim::Runner, Vic
 
 struct Place {
     folder: TempDir,
+    solver: PathBuf,
 }
 
 impl Place {
     /// A study that writes checkpoints all the time, or hardly ever.
-    fn new(checkpoint_every: &str) -> Place {
+    fn new(checkpoint_every: &str, solver: &Path) -> Place {
         let folder = tempfile::tempdir().unwrap();
         assert!(STUDY.contains("checkpoint-every: 1 h"));
         let study = STUDY.replace(
@@ -63,14 +64,17 @@ impl Place {
             &format!("checkpoint-every: {checkpoint_every}"),
         );
         fs::write(folder.path().join("slab.yaml"), study).unwrap();
-        Place { folder }
+        Place {
+            folder,
+            solver: solver.to_owned(),
+        }
     }
 
     fn start(&self, command: &str, arguments: &[&str]) -> Child {
         let output = |name: &str| fs::File::create(self.folder.path().join(name)).unwrap();
         let mut cgaft = Command::new(env!("CARGO_BIN_EXE_cgaft"));
         cgaft.args(["study", command, "slab.yaml"]).args(arguments);
-        cgaft.env("CGAFT_SOLVE", env!("CARGO_BIN_EXE_cgaft-solve"));
+        cgaft.env("CGAFT_SOLVE", &self.solver);
         cgaft.current_dir(self.folder.path()).stdin(Stdio::null());
         cgaft.stdout(output("stdout")).stderr(output("stderr")).spawn().unwrap()
     }
@@ -174,11 +178,13 @@ fn strike(victim: Victim, run: &mut Child, dice: &mut Dice) -> bool {
 
 #[test]
 fn a_study_killed_twenty_times_at_random_ends_with_the_same_bits_and_leaves_nothing_behind() {
-    let whole = Place::new("1 h");
+    let with_mpi = solver_with_mpi();
+    let ranks = if with_mpi.is_some() { "2" } else { "1" };
+    let solver = with_mpi.unwrap_or_else(|| env!("CARGO_BIN_EXE_cgaft-solve").into());
+    let whole = Place::new("1 h", &solver);
     whole.cgaft("run", &[]);
 
-    let place = Place::new("20 ms");
-    let ranks = if solver_speaks_mpi() { "2" } else { "1" };
+    let place = Place::new("20 ms", &solver);
     let arguments = ["--ranks", ranks, "--threads", "1"];
     let mut dice = Dice(5);
     let mut kills = 0;

@@ -5,7 +5,7 @@ use std::path::Path;
 use std::process::Command;
 
 use super::{Place, STUDY, Slurm, assert_same_results};
-use crate::verify::ranks::solver_speaks_mpi;
+use crate::verify::mpi_solver::solver_with_mpi;
 
 const CLUSTER: &str = "cluster: {nodes: 1, ranks: 2, threads: 1}\n";
 
@@ -16,13 +16,10 @@ pub fn a_job_starts_its_ranks_by_mpirun(slurm: &Slurm) {
     }
     let place = Place::new(slurm, &format!("{STUDY}{CLUSTER}"));
     let mut run = place.command("run", &["--on", "slurm"]);
-    let speaks_mpi = solver_speaks_mpi();
-    if !speaks_mpi {
-        run.env(
-            "CGAFT_SOLVE",
-            Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/fake-solver.sh"),
-        );
-    }
+    let with_mpi = solver_with_mpi();
+    let speaks_mpi = with_mpi.is_some();
+    let fake = || Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/fake-solver.sh");
+    run.env("CGAFT_SOLVE", with_mpi.clone().unwrap_or_else(fake));
     let output = run.output().unwrap();
     let said = String::from_utf8_lossy(&[output.stdout, output.stderr].concat()).into_owned();
     assert!(output.status.success() || !speaks_mpi, "{said}\n{}", place.outputs());
@@ -40,13 +37,14 @@ pub fn a_job_starts_its_ranks_by_mpirun(slurm: &Slurm) {
             "{log}"
         );
     }
-    if speaks_mpi {
+    if let Some(solver) = with_mpi {
         let alone = Place::new(slurm, STUDY);
-        alone.cgaft("run", &[], 0);
+        let mut run = alone.command("run", &[]);
+        assert!(run.env("CGAFT_SOLVE", &solver).output().unwrap().status.success());
         for case in ["coarse", "mixed", "atoms"] {
             assert_same_results(&place.run_of(case), &alone.run_of(case));
         }
-        a_cancelled_job_writes_the_checkpoint_of_all_its_ranks(slurm);
+        a_cancelled_job_writes_the_checkpoint_of_all_its_ranks(slurm, &solver);
     } else {
         let starts = fs::read_to_string(place.folder.path().join("results/slab/starts.txt")).unwrap();
         assert!(
@@ -57,10 +55,11 @@ pub fn a_job_starts_its_ranks_by_mpirun(slurm: &Slurm) {
 }
 
 /// Slurm tells every process of a job to end, `mpirun` too.
-fn a_cancelled_job_writes_the_checkpoint_of_all_its_ranks(slurm: &Slurm) {
+fn a_cancelled_job_writes_the_checkpoint_of_all_its_ranks(slurm: &Slurm, solver: &Path) {
     let study = STUDY.replace("1e9 /s", "1e7 /s");
     let place = Place::new(slurm, &format!("{study}{CLUSTER}"));
-    place.cgaft("run", &["--on", "slurm", "--detach", "--only", "atoms"], 0);
+    let mut run = place.command("run", &["--on", "slurm", "--detach", "--only", "atoms"]);
+    assert!(run.env("CGAFT_SOLVE", solver).output().unwrap().status.success());
     place.wait_for(" at step ");
     place.cgaft("cancel", &[], 0);
     // Its checkpoints are an hour apart: there is none but that of the request to stop.
