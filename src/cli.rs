@@ -55,7 +55,7 @@ enum Command {
     /// Print completions for a shell
     Completions(completions::Arguments),
     /// Tell what this machine has, and what to do about the rest
-    Doctor,
+    Doctor(doctor::Arguments),
     /// Compute one case inside a job of Slurm; the scripts of `study run --on slurm` call it
     #[command(hide = true)]
     SlurmJob(slurm_job::Arguments),
@@ -110,7 +110,7 @@ impl Command {
             Command::Schema => schema::schema(),
             Command::New(arguments) => new::new(&arguments),
             Command::Completions(arguments) => completions::completions(&arguments),
-            Command::Doctor => doctor::doctor(),
+            Command::Doctor(arguments) => doctor::doctor(&arguments),
             Command::SlurmJob(arguments) => slurm_job::slurm_job(&arguments),
         }
     }
@@ -125,6 +125,7 @@ impl Command {
             Command::Study(StudyCommand::Report(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Clean(arguments)) => arguments.of.common.json,
             Command::Export(export::Command::Lammps(arguments)) => arguments.common.json,
+            Command::Doctor(arguments) => arguments.json,
             _ => false,
         }
     }

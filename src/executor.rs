@@ -6,6 +6,7 @@
 pub mod exit;
 pub mod launch;
 mod local;
+pub mod mpi;
 pub mod probe;
 pub mod progress;
 pub mod queue;
@@ -33,8 +34,8 @@ pub enum ExecutorError {
     NoSolver,
     #[error("cannot start {}: {source}; check that it is a program that this machine can run", program.display())]
     Start { program: PathBuf, source: io::Error },
-    #[error("cannot write {}: {source}; check the disk, or choose another folder with --results DIR", path.display())]
-    Log { path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    Mpi(#[from] mpi::MpiError),
     #[error(transparent)]
     Slurm(#[from] slurm::SlurmError),
     #[error(transparent)]

@@ -2,7 +2,9 @@
 
 mod verify {
     mod gates;
+    mod kills;
     mod lammps;
+    mod mpi_solver;
     mod ranks;
     mod slurm;
     #[path = "../suite/specimens.rs"]

@@ -17,7 +17,11 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         .zip(&estimates)
         .collect();
     let cases: Vec<_> = sized.iter().map(|(name, estimate)| to_json(name, estimate)).collect();
-    let json = json!({ "study": plan.study, "cases": cases });
+    let warnings: Vec<String> = sized
+        .iter()
+        .filter_map(|(name, estimate)| warning(name, estimate))
+        .collect();
+    let json = json!({ "study": plan.study, "cases": cases, "warnings": warnings });
     let terminal = Terminal {
         quiet: false,
         json: common.json,
@@ -27,8 +31,12 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));
         let total: f64 = estimates.iter().map(|estimate| estimate.seconds).sum();
         format!(
-            "{}\n{NOTES}\n{}: no mistakes; {}, about {} on one core\n",
+            "{}\n{NOTES}\n{}{}: no mistakes; {}, about {} on one core\n",
             format::table(&rows),
+            warnings
+                .iter()
+                .map(|warning| format!("{warning}\n"))
+                .collect::<String>(),
             plan.study,
             format::count(plan.cases.len(), "case"),
             format::duration(total)
@@ -54,6 +62,20 @@ const HEAD: [&str; 10] = [
     "disk",
     "about",
 ];
+
+/// Share of the limit of the crystal at rest above which a breaking one is likely to undercut the time step.
+const RISKY: f64 = 0.9;
+
+fn warning(name: &str, estimate: &Estimate) -> Option<String> {
+    let share = estimate.time_step / estimate.stability_limit;
+    (share > RISKY).then(|| {
+        format!(
+            "warning: {name}: the time step is {:.0} % of the limit of the crystal at rest; what collides behind a crack is \
+             stiffer, and the run may end there: `time-step: auto` takes half of it",
+            100.0 * share
+        )
+    })
+}
 
 fn row(name: &str, estimate: &Estimate) -> Vec<String> {
     vec![

@@ -7,7 +7,7 @@ use super::run::{Arguments, Prepared};
 use super::survey::Survey;
 use super::{CliError, format};
 use crate::executor::launch;
-use crate::executor::slurm::{Script, Setting, scripts};
+use crate::executor::slurm::{Script, Setting, commands, scripts};
 use crate::study::cluster::read_profile;
 
 /// Resources of the study, and where it leaves them open, of the profile.
@@ -24,7 +24,8 @@ pub fn setting(survey: &Survey, arguments: &Arguments) -> Result<Setting, CliErr
         // A plan is worth showing before the solver is installed.
         solver: launch::find_solver().unwrap_or_else(|_| "cgaft-solve".into()),
         cluster: survey.plan.cluster.clone().over(profile),
-        at_once: arguments.jobs.map(usize::from),
+        at_once: arguments.crew.jobs.map(usize::from),
+        longest_array: commands::longest_array(),
     })
 }
 

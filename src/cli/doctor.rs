@@ -2,33 +2,46 @@ use std::fs;
 use std::path::Path;
 use std::thread;
 
-use super::{CliError, format, terminal};
+use clap::Args;
+use serde_json::json;
+
+use super::terminal::Terminal;
+use super::{CliError, format};
+use crate::executor::exit;
 use crate::executor::launch;
+use crate::executor::mpi::{self, Speaks};
 use crate::executor::probe::output_of;
 
+#[derive(Args, Debug)]
+pub struct Arguments {
+    /// Print the result as JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
 /// `cgaft doctor`: a line each, with what to do where something is missing.
-pub fn doctor() -> Result<u8, CliError> {
-    let findings = [solver(), cores(), memory(), hdf5(), mpirun(), slurm(), python()];
-    let mark = |finding: &Finding| {
-        if finding.needed_and_missing {
-            "missing"
-        } else if finding.here {
-            "ok"
-        } else {
-            "-"
-        }
-    };
-    let rows: Vec<Vec<String>> = findings
-        .iter()
-        .map(|finding| vec![mark(finding).to_owned(), finding.what.to_owned(), finding.words.clone()])
-        .collect();
-    terminal::print(&format::list(&rows))?;
+pub fn doctor(arguments: &Arguments) -> Result<u8, CliError> {
+    let findings = [solver(), cores(), memory(), hdf5(), mpi(), slurm(), python()];
     let missing = findings.iter().any(|finding| finding.needed_and_missing);
-    Ok(if missing {
-        crate::executor::exit::MISSING_ENVIRONMENT
-    } else {
-        0
-    })
+    let row = |finding: &Finding| {
+        vec![
+            finding.mark().to_owned(),
+            finding.what.to_owned(),
+            finding.words.clone(),
+        ]
+    };
+    let told = |finding: &Finding| {
+        json!({
+            "what": finding.what, "state": finding.mark(), "words": finding.words,
+        })
+    };
+    let json = json!({ "ok": !missing, "findings": findings.each_ref().map(told) });
+    let terminal = Terminal {
+        quiet: false,
+        json: arguments.json,
+    };
+    terminal.result(&json, || format::list(&findings.each_ref().map(row)))?;
+    Ok(if missing { exit::MISSING_ENVIRONMENT } else { 0 })
 }
 
 struct Finding {
@@ -37,6 +50,19 @@ struct Finding {
     needed_and_missing: bool,
     /// What was found, or what to do about it.
     words: String,
+}
+
+impl Finding {
+    /// `-` is not here, and not needed.
+    fn mark(&self) -> &'static str {
+        if self.needed_and_missing {
+            "missing"
+        } else if self.here {
+            "ok"
+        } else {
+            "-"
+        }
+    }
 }
 
 fn found(what: &'static str, words: String) -> Finding {
@@ -102,9 +128,28 @@ fn hdf5() -> Finding {
     version.map_or_else(|| optional("HDF5", advice), |version| found("HDF5", version))
 }
 
-fn mpirun() -> Finding {
-    let advice = "not found, and not needed in this version: cases use threads";
-    first_line("mpirun", &["--version"]).map_or_else(|| optional("mpirun", advice), |line| found("mpirun", line))
+/// Both the one who starts ranks and the one who is started must know MPI.
+fn mpi() -> Finding {
+    let solver = launch::find_solver().map_or(Speaks::Nothing, |solver| mpi::of_solver(&solver));
+    match (mpi::of_mpirun(), solver) {
+        (Some(mpirun), Speaks::Mpi(library)) => found("MPI", format!("{mpirun}, cgaft-solve built with {library}")),
+        (None, Speaks::Mpi(library)) => {
+            let words = format!(
+                "cgaft-solve built with {library}, but no mpirun on the PATH: cases use threads; for ranks, install \
+                 openmpi-bin"
+            );
+            optional("MPI", &words)
+        }
+        (Some(mpirun), _) => {
+            let words =
+                format!("{mpirun}, but cgaft-solve was built without MPI: cases use threads; for ranks, `make build`");
+            optional("MPI", &words)
+        }
+        (None, _) => optional(
+            "MPI",
+            "not found: cases use threads; for ranks, install openmpi-bin and `make build`",
+        ),
+    }
 }
 
 fn slurm() -> Finding {

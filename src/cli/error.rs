@@ -29,13 +29,13 @@ impl CliError {
         match self {
             CliError::Study(_) | CliError::Input(_) => exit::BAD_INPUT,
             CliError::Environment(_) => exit::MISSING_ENVIRONMENT,
-            CliError::Executor(ExecutorError::NoSolver | ExecutorError::Start { .. } | ExecutorError::Slurm(_)) => {
-                exit::MISSING_ENVIRONMENT
-            }
+            CliError::Executor(
+                ExecutorError::NoSolver | ExecutorError::Start { .. } | ExecutorError::Mpi(_) | ExecutorError::Slurm(_),
+            ) => exit::MISSING_ENVIRONMENT,
             CliError::Store(store) | CliError::Executor(ExecutorError::Store(store)) if store.is_of_the_input() => {
                 exit::BAD_INPUT
             }
-            CliError::Executor(ExecutorError::Log { .. } | ExecutorError::Store(_)) => exit::OUTPUT_FAILED,
+            CliError::Executor(ExecutorError::Store(_)) => exit::OUTPUT_FAILED,
             CliError::Store(_) | CliError::Output { .. } | CliError::Report(_) => exit::OUTPUT_FAILED,
         }
     }

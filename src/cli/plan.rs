@@ -1,17 +1,20 @@
 use clap::Args;
 use serde_json::json;
 
-use super::run::{self, Arguments as RunArguments, On};
+use super::run::{self, Arguments as RunArguments, CrewChoice, On};
 use super::survey::{self, OfResults};
 use super::terminal::Terminal;
 use super::{CliError, cluster};
 use crate::executor::launch;
+use crate::executor::share::Crew;
 use crate::store::State;
 
 #[derive(Args, Debug)]
 pub struct Arguments {
     #[command(flatten)]
     pub of: OfResults,
+    #[command(flatten)]
+    pub crew: CrewChoice,
     /// Where the cases would be computed
     #[arg(long, value_enum, default_value = "local")]
     pub on: On,
@@ -20,7 +23,7 @@ pub struct Arguments {
 /// `cgaft study plan FILE`: every case, and the command or the script that computes it.
 pub fn plan(arguments: &Arguments) -> Result<u8, CliError> {
     let OfResults { common, place } = arguments.of.clone();
-    show(&RunArguments::planning(common, place, arguments.on))
+    show(&RunArguments::planning(common, place, arguments.crew, arguments.on))
 }
 
 /// What `run` would do with these arguments; changes nothing.
@@ -35,14 +38,13 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
     let mut cases = Vec::new();
     for &position in &chosen {
         let entry = &survey.entries[position];
-        let threads = entry
-            .planned
-            .case
-            .execution
-            .threads
-            .filter(|_| arguments.threads.is_none());
+        let execution = &entry.planned.case.execution;
+        let crew = Crew {
+            ranks: arguments.crew.ranks.or(execution.ranks).unwrap_or(1),
+            threads: arguments.crew.threads.or(execution.threads).unwrap_or(share.threads),
+        };
         let folder = survey.store.partial_folder(&entry.id);
-        let command = launch::launch(&solver, &folder, threads.unwrap_or(share.threads)).to_string();
+        let command = launch::launch(&solver, &folder, crew).to_string();
         let runs = arguments.fresh || !matches!(entry.state, State::Done(_));
         let waits = arguments.on == On::Slurm && entry.is_on_slurm();
         let doing = match (runs, waits) {
@@ -71,7 +73,7 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
         On::Local => {
             json["jobs"] = json!(share.jobs);
             json["threads"] = json!(share.threads);
-            words.push_str(&format!("\n{}\n", run::summary(number, share)));
+            words.push_str(&format!("\n{}\n", prepared.summary()));
             if number > 0 {
                 words.push_str(
                     "`study run` writes each case.yaml before it starts the command, and holds its standard input.\n",

@@ -10,8 +10,8 @@ use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
 use super::{CliError, cluster, format, plan, report};
-use crate::executor::share::{Share, share};
-use crate::executor::{self, Ending, Job, Settings, Stop, exit, launch, slurm};
+use crate::executor::share::{Crew, Demand, Share, share};
+use crate::executor::{self, Ending, ExecutorError, Job, Settings, Stop, exit, launch, mpi, slurm};
 use crate::plan as planning;
 use crate::setup::Estimate;
 use crate::store::State;
@@ -25,15 +25,8 @@ pub struct Arguments {
     /// Run this case only; may be given several times
     #[arg(long, value_name = "CASE")]
     pub only: Vec<String>,
-    /// Cases at once [default: what ends first without more threads than cores; on Slurm, as many as it starts]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
-    pub jobs: Option<u16>,
-    /// MPI ranks a case; more than 1 is not in this version
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub ranks: Option<u32>,
-    /// Threads a case [default: the cores of this machine, shared between the jobs; on Slurm, what the study says, else 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
-    pub threads: Option<u32>,
+    #[command(flatten)]
+    pub crew: CrewChoice,
     /// Where the cases are computed
     #[arg(long, value_enum, default_value = "local")]
     pub on: On,
@@ -49,6 +42,21 @@ pub struct Arguments {
     /// Print nothing but failures
     #[arg(long, short)]
     pub quiet: bool,
+}
+
+/// How many cases at once, and what computes each.
+#[derive(Args, Clone, Copy, Debug, Default)]
+pub struct CrewChoice {
+    /// Cases at once [default: what ends first without more ranks and threads than cores; on Slurm, as many as it starts]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub jobs: Option<u16>,
+    /// MPI ranks a case [default: what the study says, else 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub ranks: Option<u32>,
+    /// Threads a rank [default: the cores of this machine, shared between jobs and ranks; on Slurm, what the study says,
+    /// else 1]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub threads: Option<u32>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -103,10 +111,6 @@ fn refuse_what_is_not_here(arguments: &Arguments) -> Result<(), CliError> {
         let advice = "only Slurm goes on by itself; add `--on slurm`, or leave out `--detach`";
         return Err(CliError::Input(advice.to_owned()));
     }
-    if arguments.ranks.is_some_and(|ranks| ranks > 1) {
-        let advice = "MPI ranks are not in this version; use `--threads N` instead";
-        return Err(CliError::Environment(advice.to_owned()));
-    }
     Ok(())
 }
 
@@ -124,6 +128,8 @@ pub fn chosen(survey: &Survey, only: &[String]) -> Result<Vec<usize>, CliError> 
 pub struct Prepared {
     pub jobs: Vec<Job>,
     pub share: Share,
+    /// Of this machine.
+    pub cores: usize,
 }
 
 /// Every chosen case that is not done, once each.
@@ -143,28 +149,46 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         case_text: planning::write_case(&entry.planned),
         case: planning::spelled(&entry.planned.case),
         seconds: estimate.seconds,
-        threads: arguments.threads.or(entry.planned.case.execution.threads),
+        ranks: arguments.crew.ranks.or(entry.planned.case.execution.ranks),
+        threads: arguments.crew.threads.or(entry.planned.case.execution.threads),
         fresh: arguments.fresh.then_some(now),
     };
     let jobs: Vec<Job> = wanted.into_iter().zip(&estimates).map(job).collect();
     let cores = thread::available_parallelism().map_or(1, usize::from);
-    let seconds: Vec<f64> = jobs.iter().map(|job| job.seconds).collect();
-    let threads = jobs.iter().filter_map(|job| job.threads).max();
-    let share = share(&seconds, cores, arguments.jobs.map(usize::from), threads);
-    Ok(Prepared { jobs, share })
+    let demands: Vec<Demand> = jobs.iter().map(Job::demand).collect();
+    let share = share(&demands, cores, arguments.crew.jobs.map(usize::from));
+    Ok(Prepared { jobs, share, cores })
 }
 
-/// `2 cases to run, 2 at once with 1 thread each`
-pub fn summary(cases: usize, share: Share) -> String {
-    if cases == 0 {
-        return "nothing to run".to_owned();
+impl Prepared {
+    /// `2 cases to run, 2 at once with 1 thread each`
+    pub fn summary(&self) -> String {
+        let crews: Vec<Crew> = self.jobs.iter().map(|job| self.share.crew(&job.demand())).collect();
+        let Some(&first) = crews.first() else {
+            return "nothing to run".to_owned();
+        };
+        let mut at_once = Vec::new();
+        while at_once.len() < crews.len() && self.share.has_room(&at_once, crews[at_once.len()]) {
+            at_once.push(crews[at_once.len()]);
+        }
+        let each = match first {
+            _ if crews.iter().any(|crew| *crew != first) => "as many ranks and threads as each asks for".to_owned(),
+            Crew { ranks: 1, threads } => format!("{} each", format::count(threads as usize, "thread")),
+            Crew { ranks, threads } => {
+                let threads = format::count(threads as usize, "thread");
+                format!("{} of {threads} each", format::count(ranks as usize, "rank"))
+            }
+        };
+        let to_run = format::count(crews.len(), "case");
+        let summary = format!("{to_run} to run, {} at once with {each}", at_once.len());
+        let taken: usize = at_once.iter().map(|crew| crew.cores()).sum();
+        let most = crews.iter().map(|crew| crew.cores()).max().unwrap_or(taken).max(taken);
+        if most <= self.cores {
+            return summary;
+        }
+        let cores = format::count(self.cores, "core");
+        format!("{summary}: {most} in all on {cores}, which they take turns on")
     }
-    let at_once = share.jobs.min(cases);
-    format!(
-        "{} to run, {at_once} at once with {} each",
-        format::count(cases, "case"),
-        format::count(share.threads as usize, "thread")
-    )
 }
 
 fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: &Arguments, terminal: Terminal) {
@@ -181,17 +205,10 @@ fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: 
             }
             _ => format!("{}: runs ({reason})", planned.name),
         });
-        if planned.case.execution.ranks > 1 {
-            let ranks = planned.case.execution.ranks;
-            terminal.say(&format!(
-                "{}: `ranks: {ranks}` needs MPI, which is not in this version: 1 is used",
-                planned.name
-            ));
-        }
     }
     if !prepared.jobs.is_empty() {
         terminal.say(&match arguments.on {
-            On::Local => summary(prepared.jobs.len(), prepared.share),
+            On::Local => prepared.summary(),
             On::Slurm => cluster::summary(survey, prepared),
         });
     }
@@ -209,19 +226,33 @@ fn compute(
         return Ok(Vec::new());
     }
     let solver = launch::find_solver()?;
-    survey.store.prepare()?;
     let (store, jobs) = (&survey.store, &prepared.jobs);
+    let most_ranks = |of_cluster: Option<u32>| {
+        jobs.iter()
+            .filter_map(|job| job.ranks.or(of_cluster))
+            .max()
+            .unwrap_or(1)
+    };
     let mut watcher = progress::watcher(terminal, store);
     let watcher = watcher.as_mut();
     Ok(match arguments.on {
         On::Local => {
-            let share = prepared.share;
-            stop.with_care(|| executor::run(store, jobs, &Settings { solver, share }, stop, watcher))?
+            mpi::check(&solver, most_ranks(None)).map_err(ExecutorError::from)?;
+            store.prepare()?;
+            let settings = Settings {
+                solver,
+                share: prepared.share,
+                slurm_job: None,
+            };
+            stop.with_care(|| executor::run(store, jobs, &settings, stop, watcher))?
         }
         On::Slurm => {
+            let setting = cluster::setting(survey, arguments)?;
+            mpi::check_elsewhere(&solver, most_ranks(setting.cluster.ranks)).map_err(ExecutorError::from)?;
+            store.prepare()?;
             let settings = slurm::Settings {
                 study: survey.plan.study.clone(),
-                setting: cluster::setting(survey, arguments)?,
+                setting,
                 detach: arguments.detach,
             };
             stop.with_care(|| slurm::run(store, jobs, &settings, stop, watcher))?
@@ -295,14 +326,12 @@ fn exit_code(endings: &[Ending], stopped: bool) -> u8 {
 
 impl Arguments {
     /// A plain run, for showing what it would do.
-    pub fn planning(common: Common, place: Place, on: On) -> Arguments {
+    pub fn planning(common: Common, place: Place, crew: CrewChoice, on: On) -> Arguments {
         Arguments {
             common,
             place,
             only: Vec::new(),
-            jobs: None,
-            ranks: None,
-            threads: None,
+            crew,
             on,
             detach: false,
             dry_run: true,

@@ -3,7 +3,7 @@ use serde_json::json;
 use super::survey::{self, Entry, OfResults, Survey};
 use super::terminal::Terminal;
 use super::{CliError, format};
-use crate::store::State;
+use crate::store::{Manifest, State};
 
 /// `cgaft study status FILE`
 pub fn status(arguments: &OfResults) -> Result<u8, CliError> {
@@ -44,13 +44,22 @@ fn words(survey: &Survey) -> String {
     )
 }
 
+/// `2 threads`, `4 ranks of 1 thread`
+fn crew(manifest: &Manifest) -> String {
+    let threads = format::count(manifest.threads as usize, "thread");
+    match manifest.ranks {
+        1 => threads,
+        ranks => format!("{ranks} ranks of {threads}"),
+    }
+}
+
 fn detail(survey: &Survey, entry: &Entry) -> String {
     match &entry.state {
         State::Done(manifest) => format!(
-            "{}; {} on {} threads, {}",
+            "{}; {} on {}, {}",
             manifest.outcome.end_reason,
             format::duration(manifest.wall_seconds),
-            manifest.threads,
+            crew(manifest),
             manifest.ended.strftime("%F %R UTC")
         ),
         State::Failed(_) => {

@@ -1,8 +1,12 @@
 use std::env;
 use std::fmt;
+use std::fs;
+use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 use super::ExecutorError;
+use super::mpi::under_mpirun;
+use super::share::Crew;
 
 /// A command, made but not started.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -12,10 +16,10 @@ pub struct Launch {
 }
 
 /// The command that computes the case in `folder`, with all files of the run in that folder.
-pub fn launch(solver: &Path, folder: &Path, threads: u32) -> Launch {
+pub fn launch(solver: &Path, folder: &Path, crew: Crew) -> Launch {
     let folder_text = folder.display().to_string();
     let case_text = folder.join("case.yaml").display().to_string();
-    let threads = threads.to_string();
+    let threads = crew.threads.to_string();
     let arguments = [
         &case_text,
         "--into",
@@ -26,10 +30,19 @@ pub fn launch(solver: &Path, folder: &Path, threads: u32) -> Launch {
         "json",
         "--parent-pipe",
     ];
-    Launch {
+    let solve = Launch {
         program: solver.to_owned(),
         arguments: arguments.map(str::to_owned).to_vec(),
+    };
+    match crew.ranks {
+        1 => solve,
+        ranks => under_mpirun(solve, ranks),
     }
+}
+
+/// Whether this process belongs to root, whom some programs refuse.
+pub(super) fn is_root() -> bool {
+    fs::metadata("/proc/self").is_ok_and(|process| process.uid() == 0)
 }
 
 /// Finds `cgaft-solve`: where CGAFT_SOLVE says, else beside this program, else on the PATH.
@@ -85,11 +98,22 @@ mod tests {
         let command = launch(
             Path::new("/opt/my tools/cgaft-solve"),
             Path::new("results/it's/runs/1f.partial"),
-            2,
+            Crew { ranks: 1, threads: 2 },
         );
         assert_eq!(
             command.to_string(),
             r"'/opt/my tools/cgaft-solve' 'results/it'\''s/runs/1f.partial/case.yaml' --into 'results/it'\''s/runs/1f.partial' --threads 2 --progress json --parent-pipe"
+        );
+    }
+
+    #[test]
+    fn ranks_are_started_by_mpirun_unbound_and_more_than_there_are_cores_if_need_be() {
+        let crew = Crew { ranks: 4, threads: 2 };
+        let command = launch(Path::new("/opt/cgaft-solve"), Path::new("1f.partial"), crew).to_string();
+        assert!(
+            command.starts_with("mpirun -n 4 --bind-to none --oversubscribe --mca mpi_yield_when_idle 1 ")
+                && command.contains("/opt/cgaft-solve 1f.partial/case.yaml --into 1f.partial --threads 2 "),
+            "{command}"
         );
     }
 }

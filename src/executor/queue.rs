@@ -9,10 +9,11 @@ use std::time::{Duration, Instant};
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use super::exit::{self, Ended};
 use super::local::{self, Event, Running};
-use super::share::Share;
-use super::{ExecutorError, Progress, Stop, exit, launch};
-use crate::store::{Attempt, Claim, Failure, Manifest, Program, Reached, State, Store};
+use super::share::{Crew, Demand, Share};
+use super::{ExecutorError, Progress, Stop, launch, mpi};
+use crate::store::{Attempt, Claim, Failure, Manifest, Program, Reached, State, Store, StoreError};
 
 /// A case to compute.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -24,18 +25,32 @@ pub struct Job {
     pub case_text: String,
     /// The case for the manifest.
     pub case: serde_json::Value,
-    /// Estimated time on one thread, s.
+    /// Estimated time on one core, s.
     pub seconds: f64,
-    /// Where the study itself says how many threads; else all jobs have the same.
+    /// Where the user or the study says how many; else one.
+    pub ranks: Option<u32>,
+    /// Where the user or the study says how many; else all jobs have the same.
     pub threads: Option<u32>,
     /// Since when it is wanted afresh: what was begun before counts for nothing. `None`: whatever there is serves.
     pub fresh: Option<Timestamp>,
+}
+
+impl Job {
+    pub fn demand(&self) -> Demand {
+        Demand {
+            seconds: self.seconds,
+            ranks: self.ranks.unwrap_or(1),
+            threads: self.threads,
+        }
+    }
 }
 
 #[derive(Clone, Debug)]
 pub struct Settings {
     pub solver: PathBuf,
     pub share: Share,
+    /// The job of Slurm that all this happens in, such as `123_4`.
+    pub slurm_job: Option<String>,
 }
 
 /// How a case ended.
@@ -126,7 +141,7 @@ struct Work {
     job: usize,
     process: Running,
     claim: Claim,
-    threads: u32,
+    crew: Crew,
     reached: Option<Reached>,
     /// When the store was last told of it.
     noted: Instant,
@@ -136,7 +151,8 @@ impl<'a> Queue<'a> {
     fn new(store: &'a Store, jobs: &'a [Job], settings: &'a Settings, watcher: &'a mut dyn Watcher) -> Self {
         let (speak, listen) = mpsc::channel();
         let mut waiting: Vec<usize> = (0..jobs.len()).collect();
-        waiting.sort_by(|&a, &b| jobs[a].seconds.total_cmp(&jobs[b].seconds).then(b.cmp(&a)));
+        let duration = |job: usize| settings.share.duration(&jobs[job].demand());
+        waiting.sort_by(|&a, &b| duration(a).total_cmp(&duration(b)).then(b.cmp(&a)));
         Queue {
             store,
             jobs,
@@ -153,7 +169,9 @@ impl<'a> Queue<'a> {
 
     fn start_what_fits(&mut self) -> Result<(), ExecutorError> {
         for job in self.waiting.clone().into_iter().rev() {
-            if self.running.len() >= self.settings.share.jobs {
+            let at_work: Vec<Crew> = self.running.iter().map(|work| work.crew).collect();
+            // A wide case is not overtaken by narrow ones behind it, or it would wait for all of them.
+            if !self.settings.share.has_room(&at_work, self.crew(job)) {
                 return Ok(());
             }
             if let Some(claim) = self.store.claim(&self.jobs[job].id)? {
@@ -165,6 +183,10 @@ impl<'a> Queue<'a> {
             }
         }
         Ok(())
+    }
+
+    fn crew(&self, job: usize) -> Crew {
+        self.settings.share.crew(&self.jobs[job].demand())
     }
 
     fn start_or_skip(&mut self, number: usize, mut claim: Claim) -> Result<(), ExecutorError> {
@@ -183,8 +205,11 @@ impl<'a> Queue<'a> {
             }
         }
         let folder = claim.folder();
-        let threads = job.threads.unwrap_or(self.settings.share.threads);
-        let command = launch::launch(&self.settings.solver, &folder, threads);
+        let crew = self.crew(number);
+        let mut command = launch::launch(&self.settings.solver, &folder, crew);
+        if crew.ranks > 1 && self.settings.slurm_job.is_some() {
+            command = mpi::shielded(command);
+        }
         let log = open_log(&folder, &command)?;
         let process = local::start(number, &command, log, self.speak.clone())?;
         self.watcher.started(job);
@@ -192,7 +217,7 @@ impl<'a> Queue<'a> {
             job: number,
             process,
             claim,
-            threads,
+            crew,
             reached: None,
             noted: Instant::now() - NOTE_EVERY,
         });
@@ -235,13 +260,24 @@ impl<'a> Queue<'a> {
 
     fn ending_of(&self, mut work: Work, status: ExitStatus, stopping: bool) -> Result<Ending, ExecutorError> {
         let job = &self.jobs[work.job];
-        let interrupted = status.code() == Some(i32::from(exit::INTERRUPTED)) || (stopping && status.code().is_none());
-        if interrupted {
+        let tail = tail_of(&work.claim.folder().join("log.txt"));
+        let several = work.crew.ranks > 1;
+        let ended = if several {
+            Ended::of_ranks(status, &tail)
+        } else {
+            Ended::of(status)
+        };
+        if ended.is_interruption() || (stopping && ended.code().is_none()) {
             return Ok(Ending::Interrupted(Some(work.claim.note(work.reached)?.clone())));
         }
-        let outcome = work.claim.outcome().filter(|_| status.success());
+        // The last that a solver writes. Ranks that end badly after it have nothing more to do, whatever mpirun says of them.
+        let outcome = work.claim.outcome().filter(|_| status.success() || several);
         if let Some(outcome) = outcome {
-            let manifest = work.claim.publish(outcome, &job.name, &job.case, 1, work.threads)?;
+            let Crew { ranks, threads } = work.crew;
+            let slurm_job = self.settings.slurm_job.as_deref();
+            let manifest = work
+                .claim
+                .publish(outcome, &job.name, &job.case, ranks, threads, slurm_job)?;
             self.store.link(&job.name, &job.id)?;
             return Ok(Ending::Done(Box::new(manifest)));
         }
@@ -250,11 +286,10 @@ impl<'a> Queue<'a> {
              both again"
                 .to_owned()
         } else {
-            exit::meaning(status)
+            ended.meaning()
         };
-        let tail = tail_of(&work.claim.folder().join("log.txt"));
         Ok(Ending::Failed(Box::new(work.claim.fail(
-            status.code(),
+            ended.code(),
             meaning,
             tail,
         )?)))
@@ -295,10 +330,11 @@ fn open_log(folder: &Path, command: &launch::Launch) -> Result<File, ExecutorErr
         writeln!(log, "{} {command}", Timestamp::now().strftime("%F %T UTC"))?;
         Ok(log)
     };
-    open().map_err(|source| ExecutorError::Log {
+    let log = open().map_err(|source| StoreError::Write {
         path: path.clone(),
         source,
-    })
+    })?;
+    Ok(log)
 }
 
 /// The last lines of a log, of which only the end is shown.

@@ -21,7 +21,7 @@ use std::fs;
 use jiff::Timestamp;
 
 use super::ExecutorError;
-use crate::store::Store;
+use crate::store::{Store, StoreError};
 
 /// What the queue tells of a case that was handed over.
 #[derive(Clone, Debug)]
@@ -96,7 +96,7 @@ pub fn forget(store: &Store, kept: &BTreeSet<String>) -> Result<(), ExecutorErro
     {
         let stem = path.file_stem().unwrap_or_default().to_string_lossy();
         if !kept.iter().any(|kept| *kept == stem) {
-            fs::remove_file(&path).map_err(|source| ExecutorError::Log { path, source })?;
+            fs::remove_file(&path).map_err(|source| StoreError::Write { path, source })?;
         }
     }
     Ok(())

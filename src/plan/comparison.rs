@@ -133,7 +133,9 @@ impl Sheet<'_> {
         let table = self.table(&head)?;
         let mut values = Vec::new();
         for record in reader.records() {
-            let record = self.parsed(record)?;
+            let Some(record) = self.parsed(record) else {
+                continue;
+            };
             let cells: Vec<(&str, &str)> = head.iter().zip(&record).collect();
             self.row(
                 table,
@@ -189,14 +191,17 @@ impl Sheet<'_> {
         }
         let unknown = head
             .iter()
-            .find(|column| COMPARED.iter().all(|table| !has(table, column)));
+            .filter(|column| COMPARED.iter().all(|table| !has(table, column)));
+        let unknown: Vec<&str> = unknown.collect();
         let [summary, waves, costs] = &COMPARED;
-        match unknown {
-            Some(column) => self.add(
+        for column in &unknown {
+            self.add(
                 format!("{} has a column `{column}`, which no table has", self.file),
                 suggestion(column, &[summary.values, waves.values, costs.values].concat()),
-            ),
-            None => self.add(
+            );
+        }
+        if unknown.is_empty() {
+            self.add(
                 format!("the columns of {} are not those of one table", self.file),
                 format!(
                     "write columns of `{}`, of `{}`, or `wave`, `path` and {} of `{}`",
@@ -205,7 +210,7 @@ impl Sheet<'_> {
                     alternatives(waves.values),
                     waves.table
                 ),
-            ),
+            );
         }
         None
     }

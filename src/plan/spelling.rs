@@ -62,7 +62,9 @@ pub fn spelled(case: &Case) -> Value {
 /// How a case is carried out, as it would be typed into `run`.
 pub fn spelled_execution(execution: &Execution) -> Map<String, Value> {
     let mut map = Map::new();
-    map.insert("ranks".into(), execution.ranks.into());
+    if let Some(ranks) = execution.ranks {
+        map.insert("ranks".into(), ranks.into());
+    }
     if let Some(threads) = execution.threads {
         map.insert("threads".into(), threads.into());
     }

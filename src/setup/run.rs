@@ -159,7 +159,7 @@ fn usable_checkpoint(
     match record::checkpoint::read(path, id) {
         Ok(checkpoint) => return Ok(Some(checkpoint)),
         Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
-        Err(error @ RecordError::Damaged { .. }) => start_afresh(into, &error, warn)?,
+        Err(error @ (RecordError::Damaged { .. } | RecordError::NotOurs { .. })) => start_afresh(into, &error, warn)?,
         Err(error) => return Err(error.into()),
     }
     Ok(None)

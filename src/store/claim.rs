@@ -115,6 +115,7 @@ impl Claim {
         case: &serde_json::Value,
         ranks: u32,
         threads: u32,
+        slurm_job: Option<&str>,
     ) -> Result<Manifest, StoreError> {
         self.note(None)?;
         let folder = self.folder();
@@ -130,6 +131,7 @@ impl Claim {
             host: host(),
             ranks,
             threads,
+            slurm_job: slurm_job.map(str::to_owned),
             started: self.attempt.started,
             ended: Timestamp::now(),
             attempts: self.attempt.attempts,

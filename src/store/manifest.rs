@@ -19,6 +19,9 @@ pub struct Manifest {
     pub ranks: u32,
     /// Threads a rank.
     pub threads: u32,
+    /// The job of Slurm that published it, such as `123_4`; `None` outside Slurm.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slurm_job: Option<String>,
     /// Of the first attempt.
     pub started: Timestamp,
     pub ended: Timestamp,

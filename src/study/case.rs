@@ -216,7 +216,8 @@ pub enum SnapshotInterval {
 /// How a case is carried out. Never part of its identity: results do not depend on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Execution {
-    pub ranks: u32,
+    /// Processes a case is shared between; `None`: what a cluster's job has, else one.
+    pub ranks: Option<u32>,
     /// Threads a rank; `None`: what the machine has, shared between the jobs.
     pub threads: Option<u32>,
     /// Wall time between checkpoints, s.

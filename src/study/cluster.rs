@@ -17,6 +17,10 @@ pub struct Cluster {
     pub account: Option<String>,
     /// Longest time of one job, s.
     pub time: Option<f64>,
+    /// Nodes that the ranks of a case are spread over.
+    pub nodes: Option<u32>,
+    pub ranks: Option<u32>,
+    /// Of each rank.
     pub threads: Option<u32>,
     pub modules: Vec<String>,
     /// Lines of shell.
@@ -54,6 +58,8 @@ impl Cluster {
             partition: self.partition.or(profile.partition),
             account: self.account.or(profile.account),
             time: self.time.or(profile.time),
+            nodes: self.nodes.or(profile.nodes),
+            ranks: self.ranks.or(profile.ranks),
             threads: self.threads.or(profile.threads),
             modules: list(self.modules, profile.modules),
             preamble: self.preamble.or(profile.preamble),
@@ -87,13 +93,14 @@ pub(crate) fn resolve(given: &Given<ClusterFile>, findings: &Findings) -> Cluste
         return Cluster::default();
     };
     let check = Check(findings);
-    check.only_one(&file.nodes, "nodes");
-    check.only_one(&file.ranks, "ranks");
+    check.spread(&file.nodes, &file.ranks);
     Cluster {
         partition: check.word(&file.partition, "partition"),
         account: check.word(&file.account, "account"),
         time: check.time(&file.time),
-        threads: check.threads(&file.threads),
+        nodes: check.count(&file.nodes, "nodes"),
+        ranks: check.count(&file.ranks, "ranks"),
+        threads: check.count(&file.threads, "threads"),
         modules: check.list(&file.modules, |check, given| check.word(given, "modules")),
         preamble: file.preamble.right().map(|text| text.trim_end().to_owned()),
         options: check.list(&file.options, Check::option),
@@ -161,25 +168,28 @@ impl Check<'_> {
         None
     }
 
-    fn threads(&self, given: &Given<u32>) -> Option<u32> {
+    fn count(&self, given: &Given<u32>, key: &str) -> Option<u32> {
         match *given {
             Given::Right(0, place) => {
-                let message = "`cluster.threads` must be at least 1".to_owned();
-                self.refuse(place, message, "leave it out for one thread a case");
+                let message = format!("`cluster.{key}` must be at least 1");
+                self.refuse(place, message, "leave it out for one");
                 None
             }
-            Given::Right(threads, _) => Some(threads),
+            Given::Right(number, _) => Some(number),
             _ => None,
         }
     }
 
-    /// The solver is one process until it speaks MPI.
-    fn only_one(&self, given: &Given<u32>, key: &str) {
-        if let Given::Right(number, place) = *given
-            && number != 1
+    /// A node without a rank would compute nothing.
+    fn spread(&self, nodes: &Given<u32>, ranks: &Given<u32>) {
+        if let (&Given::Right(nodes, place), &Given::Right(ranks, other)) = (nodes, ranks)
+            && nodes > ranks
+            && ranks > 0
         {
-            let message = format!("`cluster.{key}: {number}` needs MPI, which is not in this version");
-            self.refuse(place, message, &format!("leave `{key}` out, and use `threads` instead"));
+            let message =
+                format!("`cluster.nodes: {nodes}` is more than there are ranks, so that a node would have none");
+            let finding = Finding::at(place, message).with(other, "the ranks");
+            self.0.add(finding.help("ask for fewer nodes, or for more ranks"));
         }
     }
 }

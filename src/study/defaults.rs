@@ -13,7 +13,6 @@ pub const RAMP: Ramp = Ramp::InitialVelocity;
 pub const TIME_STEP: TimeStep = TimeStep::Auto { fraction: 0.5 };
 pub const SUMMATION: Summation = Summation::Exact;
 pub const MASS: MassMatrix = MassMatrix::Lumped;
-pub const RANKS: u32 = 1;
 /// s
 pub const CHECKPOINT_EVERY: f64 = 60.0;
 /// ps

@@ -197,7 +197,7 @@ pub struct Run {
     pub mass: Given<MassMatrix>,
     /// The specimen comes to rest under a strain before it moves.
     pub relax: Given<Relax>,
-    /// Processes a case is shared between.
+    /// Processes that a case is shared between by MPI.
     pub ranks: Given<u32>,
     /// Threads of each process.
     pub threads: Given<u32>,

@@ -1,8 +1,8 @@
 //! Finding the text of a study and of the files that it names: files here, or what came with the program.
 
-use super::finding::Finding;
+use super::finding::{Finding, nearest};
 use std::{
-    fs::File,
+    fs::{self, File},
     io::{ErrorKind, Read},
     path::Path,
 };
@@ -95,12 +95,31 @@ fn shipped(path: &str) -> Result<&'static Shipped, Finding> {
     match found.filter(|_| parent == Path::new("") || parent == Path::new("studies")) {
         Some(shipped) => Ok(shipped),
         None => {
-            let names = SHIPPED.each_ref().map(|shipped| shipped.name).join(", ");
-            Err(
-                Finding::whole("there is no such file, and no shipped study of that name").help(format!(
-                    "shipped studies: {names}; `cgaft new NAME` writes a study to start from"
-                )),
-            )
+            Err(Finding::whole("there is no such file, and no shipped study of that name").help(instead(parent, name)))
+        }
+    }
+}
+
+/// What may have been meant by a name that is not there.
+fn instead(folder: &Path, name: &str) -> String {
+    let shipped = SHIPPED.each_ref().map(|shipped| shipped.name);
+    let here = if folder == Path::new("") {
+        Path::new(".")
+    } else {
+        folder
+    };
+    let entries = fs::read_dir(here).into_iter().flatten().flatten();
+    let names = entries.filter_map(|entry| entry.file_name().into_string().ok());
+    let own: Vec<String> = names
+        .filter(|name| name.ends_with(".yaml") || name.ends_with(".yml"))
+        .collect();
+    let known: Vec<&str> = own.iter().map(String::as_str).chain(shipped).collect();
+    match nearest(name, &known) {
+        Some(near) if own.iter().any(|own| own == near) => format!("did you mean `{}`?", folder.join(near).display()),
+        Some(near) => format!("did you mean `{near}`?"),
+        None => {
+            let shipped = shipped.join(", ");
+            format!("shipped studies: {shipped}; `cgaft new NAME` writes a study to start from")
         }
     }
 }

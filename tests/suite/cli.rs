@@ -3,6 +3,7 @@
 mod export;
 mod interrupt;
 mod messages;
+mod ranks;
 mod repeat;
 mod single;
 mod slurm;

@@ -2,6 +2,7 @@
 
 mod checkpoint;
 mod failure;
+mod full;
 mod interrupt;
 mod kill;
 mod quickstart;

@@ -27,6 +27,7 @@ fn job(name: &str, behaviour: &str) -> Job {
         case_text: format!("case: {name}\nfake: {behaviour}\n"),
         case: json!({ "name": name }),
         seconds: 1.0,
+        ranks: None,
         threads: None,
         fresh: None,
     }
@@ -36,7 +37,12 @@ fn settings(jobs: usize) -> Settings {
     let solver = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/fake-solver.sh");
     Settings {
         solver,
-        share: Share { jobs, threads: 3 },
+        share: Share {
+            jobs,
+            threads: 3,
+            cores: None,
+        },
+        slurm_job: None,
     }
 }
 

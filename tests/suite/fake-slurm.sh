@@ -1,7 +1,7 @@
 #!/bin/bash
 # Stands in for Slurm under the names of its commands; jobs are processes of this machine, their states files in $FAKE_SLURM.
 # FAKE_STATE='TIMEOUT|TimeLimit' leaves every job in that state and never starts it (`vanish`: in none);
-# FAKE_REFUSE refuses every script; FAKE_GARBAGE makes squeue babble. A file `silent` there makes squeue fail; a file
+# FAKE_REFUSE refuses every script; FAKE_MAX_ARRAY is the longest array; FAKE_GARBAGE makes squeue babble. A file `silent` there makes squeue fail; a file
 # `accounting` is what sacct answers.
 state=$FAKE_SLURM
 put() {
@@ -19,22 +19,27 @@ sbatch)
     array=$((100 + $(find "$state" -name '*.sh' | wc -l)))
     script=$state/$array.sh
     cat >"$script"
+    only=$(grep -q '^#SBATCH --array=' "$script" || echo "$array")
     last=$(sed -n 's/^#SBATCH --array=0-\([0-9]*\).*/\1/p' "$script")
     output=$(sed -n 's/^#SBATCH --output="\(.*\)"$/\1/p' "$script")
-    for task in $(seq 0 "$last"); do
-        id=${array}_$task
-        log=${output//%A/$array}
+    for task in $(seq 0 "${last:-0}"); do
+        id=${only:-${array}_$task}
+        log=${output//%[Aj]/$array}
         put "$id" "${FAKE_STATE:-PENDING|Resources}"
         [ "${FAKE_STATE:-}" = vanish ] && rm "$state/$id"
         [ -n "${FAKE_STATE:-}" ] && continue
-        FAKE_ROLE=node SLURM_ARRAY_JOB_ID=$array SLURM_ARRAY_TASK_ID=$task \
-            setsid bash "$0" "$script" "${log//%a/$task}" </dev/null >/dev/null 2>&1 &
+        if [ -n "$only" ]; then
+            export SLURM_JOB_ID=$array
+        else
+            export SLURM_JOB_ID=$((array + task)) SLURM_ARRAY_JOB_ID=$array SLURM_ARRAY_TASK_ID=$task
+        fi
+        FAKE_ROLE=node FAKE_ID=$id setsid bash "$0" "$script" "${log//%a/$task}" </dev/null >/dev/null 2>&1 &
     done
     echo "$array"
     ;;
 node)
     unset FAKE_ROLE
-    id=${SLURM_ARRAY_JOB_ID}_$SLURM_ARRAY_TASK_ID
+    id=$FAKE_ID
     while
         put "$id" 'RUNNING|None'
         bash "$1" >>"$2" 2>&1 &
@@ -57,8 +62,8 @@ squeue)
     [ -n "${FAKE_GARBAGE:-}" ] && echo "is anybody there?" && exit
     cd "$state" || exit
     [ -e silent ] && echo "slurm_load_jobs error: Unable to contact slurm controller" >&2 && exit 1
-    for job in [0-9]*_*[0-9]; do
-        [ -e "$job" ] && echo "$job|$(cat "$job")"
+    for job in [0-9]*; do
+        [ "$job" = "${job%.*}" ] && [ -e "$job" ] && echo "$job|$(cat "$job")"
     done
     true
     ;;
@@ -77,6 +82,11 @@ scancel)
     done
     ;;
 scontrol)
+    if [ "$1" = show ]; then
+        echo "Configuration data as of now"
+        echo "MaxArraySize            = ${FAKE_MAX_ARRAY:-1001}"
+        exit
+    fi
     echo "$2" >>"$state/requeues"
     touch "$state/$2.requeue"
     ;;

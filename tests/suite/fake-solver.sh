@@ -3,6 +3,12 @@
 # A case whose file holds `fake: fail` (or the text in FAKE_FAIL) fails; `fake: slow` (FAKE_SLOW) waits to be stopped;
 # `fake: long` (FAKE_LONG) does so only until it has a checkpoint;
 # `fake: stubborn` (FAKE_STUBBORN) does not listen; `fake: pause` (FAKE_PAUSE) takes a moment; `fake: empty` leaves no result.
+# As one of several ranks it leaves all to the first.
+if [ "$1" = --version ]; then
+    printf 'cgaft-solve 0\nfeatures: %s\n' "${FAKE_FEATURES:-mpi (Open MPI 4.1.4)}"
+    exit
+fi
+[ "${OMPI_COMM_WORLD_RANK:-0}" = 0 ] || exit 0
 case_file=$1
 shift
 while [ $# -gt 0 ]; do
@@ -14,7 +20,7 @@ while [ $# -gt 0 ]; do
 done
 holds() { grep -qF -- "$1" "$case_file"; }
 
-echo "$(basename "$into") threads=$threads" >>"$into/../../starts.txt"
+echo "$(basename "$into") threads=$threads${OMPI_COMM_WORLD_SIZE:+ ranks=$OMPI_COMM_WORLD_SIZE}" >>"$into/../../starts.txt"
 echo '{"step": 40, "of": 100, "time_ps": 0.5, "strain": 0.004, "tip_nm": 12.5, "percent": 40}'
 if holds "${FAKE_FAIL:-fake: fail}"; then
     i=1

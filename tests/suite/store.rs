@@ -33,7 +33,9 @@ fn publish(store: &Store, id: &str) {
     fs::write(claim.folder().join("series.h5"), "rows").unwrap();
     outcome().write(&claim.folder()).unwrap();
     let found = claim.outcome().unwrap();
-    claim.publish(found, "A", &json!({"crack": "none"}), 1, 2).unwrap();
+    claim
+        .publish(found, "A", &json!({"crack": "none"}), 1, 2, None)
+        .unwrap();
 }
 
 #[test]
@@ -44,7 +46,9 @@ fn a_run_killed_just_before_it_was_published_is_published_whole() {
     let mut claim = store.claim("1f").unwrap().unwrap();
     assert_eq!(claim.state(), State::Partial(None));
     claim.begin("case: A\n", false).unwrap();
-    claim.publish(outcome(), "A", &json!({"crack": "none"}), 1, 2).unwrap();
+    claim
+        .publish(outcome(), "A", &json!({"crack": "none"}), 1, 2, None)
+        .unwrap();
     assert!(matches!(store.state("1f"), State::Done(_)), "{:?}", store.state("1f"));
 }
 

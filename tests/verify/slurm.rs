@@ -1,7 +1,9 @@
 //! Cases as jobs of a real Slurm, on one node of its own: what a script in its place cannot show.
 //!
 //! One test, because it needs the machine for itself: an array, a failing case, a cancelled one, one whose jobs are too
-//! short for it, and a node that refuses.
+//! short for it, a node that refuses, and cases of two ranks.
+
+mod ranks;
 
 use std::fs;
 use std::io::{self, Write};
@@ -150,6 +152,7 @@ fn a_real_slurm_computes_fails_cancels_and_requeues_cases() {
     };
     a_refusal_is_told(&slurm);
     an_array_gives_the_bits_of_a_local_run_and_a_failure_stays_alone(&slurm);
+    ranks::a_job_starts_its_ranks_by_mpirun(&slurm);
     a_cancelled_case_goes_on(&slurm);
     a_case_longer_than_its_jobs_is_requeued_until_it_is_done(&slurm);
 }

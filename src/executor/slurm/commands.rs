@@ -110,6 +110,19 @@ pub fn cancel<'a>(ids: impl IntoIterator<Item = &'a str>) -> Result<(), SlurmErr
     Ok(())
 }
 
+/// Slurm as it comes allows 1,001 tasks in an array; more cases than this do not read well in one.
+const LONGEST_ARRAY: usize = 1000;
+
+/// Tasks that one array may have here; 0 where there are no arrays.
+pub fn longest_array() -> usize {
+    let config = ask("scontrol", &["show", "config"], "").unwrap_or_default();
+    let value = config.lines().find_map(|line| {
+        let (key, value) = line.split_once('=')?;
+        (key.trim() == "MaxArraySize").then(|| value.trim().parse::<usize>().ok())?
+    });
+    value.map_or(LONGEST_ARRAY, |most| most.min(LONGEST_ARRAY))
+}
+
 /// Puts the job that says this back into the queue.
 pub fn requeue(id: &str) -> Result<(), SlurmError> {
     ask("scontrol", &["requeue", id], "").map(drop)

@@ -11,7 +11,7 @@ use signal_hook::iterator::Signals;
 use super::{Ticket, commands};
 use crate::executor::queue::{self, Settings};
 use crate::executor::share::Share;
-use crate::executor::{Ending, ExecutorError, Stop, Watcher, launch};
+use crate::executor::{Ending, ExecutorError, Stop, Watcher, launch, mpi};
 use crate::store::{Attempt, Store};
 
 /// What Slurm tells a job by signals.
@@ -55,12 +55,16 @@ pub fn carry_out(
     };
     let counts = |attempt: &Attempt| ticket.job.fresh.is_none_or(|since| attempt.started >= since);
     let began_at = steps(store.attempt(id).filter(counts).as_ref());
+    let solver = launch::find_solver()?;
+    mpi::check(&solver, ticket.job.demand().ranks)?;
     let settings = Settings {
-        solver: launch::find_solver()?,
+        solver,
         share: Share {
             jobs: 1,
             threads: ticket.threads,
+            cores: None,
         },
+        slurm_job: own_id(),
     };
     let mut endings = queue::run(store, std::slice::from_ref(&ticket.job), &settings, &bell.stop, watcher)?;
     let ending = endings.pop();
@@ -87,8 +91,9 @@ fn steps(attempt: Option<&Attempt>) -> u64 {
     reached.map_or(0, |reached| reached.step)
 }
 
-/// As Slurm names this task of an array.
+/// As Slurm names this job, or this task of an array.
 fn own_id() -> Option<String> {
-    let [array, task] = ["SLURM_ARRAY_JOB_ID", "SLURM_ARRAY_TASK_ID"].map(env::var);
-    Some(format!("{}_{}", array.ok()?, task.ok()?))
+    let [array, task, job] =
+        ["SLURM_ARRAY_JOB_ID", "SLURM_ARRAY_TASK_ID", "SLURM_JOB_ID"].map(|name| env::var(name).ok());
+    array.zip(task).map(|(array, task)| format!("{array}_{task}")).or(job)
 }

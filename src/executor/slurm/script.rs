@@ -1,18 +1,21 @@
+use std::collections::BTreeMap;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
 use super::ticket;
 use crate::executor::Job;
 use crate::executor::launch::quoted;
+use crate::executor::share::Crew;
 use crate::store::Store;
 use crate::study::cluster::Cluster;
 
-/// One array of jobs with equal resources, as `sbatch` reads it.
+/// Jobs with equal resources, one or an array of them, as `sbatch` reads it.
 #[derive(Clone, Debug)]
 pub struct Script {
     /// Positions in the list of jobs, in the order of the array's tasks.
     pub jobs: Vec<usize>,
-    pub threads: u32,
+    pub crew: Crew,
+    is_array: bool,
     text: String,
 }
 
@@ -25,43 +28,57 @@ pub struct Setting {
     pub cluster: Cluster,
     /// Jobs of an array at work at once; `None`: as many as Slurm starts.
     pub at_once: Option<usize>,
+    /// Tasks that this Slurm takes in one array; 0 or 1: it has no arrays.
+    pub longest_array: usize,
 }
-
-/// Tasks of one array: Slurm as it comes allows 1,001.
-const LONGEST_ARRAY: usize = 1000;
 
 /// Time for a checkpoint before a job's limit, s, where the limit leaves it. Slurm may be a minute early.
 const WARNING: f64 = 120.0;
 /// A short job is warned when this share of its time is left.
 const WARNING_SHARE: f64 = 0.25;
 
-/// The scripts for these jobs, by their positions: one for each number of threads and every thousand cases.
+/// The scripts for these jobs, by their positions: one for each kind of crew and each array that Slurm takes.
 pub fn scripts(store: &Store, study: &str, jobs: &[Job], chosen: &[usize], setting: &Setting) -> Vec<Script> {
-    let threads_of = |&job: &usize| jobs[job].threads.or(setting.cluster.threads).unwrap_or(1);
-    let mut classes: Vec<u32> = chosen.iter().map(threads_of).collect();
-    classes.sort_unstable();
-    classes.dedup();
+    let Setting { cluster, .. } = setting;
+    let crew_of = |&job: &usize| Crew {
+        ranks: jobs[job].ranks.or(cluster.ranks).unwrap_or(1),
+        threads: jobs[job].threads.or(cluster.threads).unwrap_or(1),
+    };
+    let mut alike: BTreeMap<(u32, u32), Vec<usize>> = BTreeMap::new();
+    for job in chosen {
+        let Crew { ranks, threads } = crew_of(job);
+        alike.entry((ranks, threads)).or_default().push(*job);
+    }
     let mut scripts = Vec::new();
-    for threads in classes {
-        let alike: Vec<usize> = chosen
-            .iter()
-            .copied()
-            .filter(|job| threads_of(job) == threads)
-            .collect();
-        scripts.extend(alike.chunks(LONGEST_ARRAY).map(|some| Script {
+    for ((ranks, threads), alike) in alike {
+        let crew = Crew { ranks, threads };
+        let is_array = setting.longest_array > 1;
+        scripts.extend(alike.chunks(setting.longest_array.max(1)).map(|some| Script {
             jobs: some.to_vec(),
-            threads,
-            text: text(store, study, some.iter().map(|&job| &jobs[job]), threads, setting),
+            crew,
+            is_array,
+            text: text(store, study, some.iter().map(|&job| &jobs[job]), crew, setting),
         }));
     }
     scripts
+}
+
+impl Script {
+    /// By which Slurm knows a job of this script, once it has taken the script under a number.
+    pub fn slurm_id(&self, number: u64, task: usize) -> String {
+        if self.is_array {
+            format!("{number}_{task}")
+        } else {
+            number.to_string()
+        }
+    }
 }
 
 fn text<'a>(
     store: &Store,
     study: &str,
     jobs: impl ExactSizeIterator<Item = &'a Job>,
-    threads: u32,
+    crew: Crew,
     setting: &Setting,
 ) -> String {
     let Setting {
@@ -69,22 +86,25 @@ fn text<'a>(
         solver,
         cluster,
         at_once,
+        longest_array,
     } = setting;
     let root = absolute(store.root());
     let results = root.parent().unwrap_or(&root);
     let throttle = at_once.map(|most| format!("%{most}")).unwrap_or_default();
+    let is_array = *longest_array > 1;
     let output = absolute(&ticket::folder(store))
         .display()
         .to_string()
         .replace('%', "%%")
-        + "/%A_%a.out";
-    let mut options = vec![
-        format!("--job-name={}", super::job_name(study)),
-        format!("--array=0-{}{throttle}", jobs.len() - 1),
-        "--nodes=1".to_owned(),
-        "--ntasks=1".to_owned(),
-        format!("--cpus-per-task={threads}"),
-    ];
+        + if is_array { "/%A_%a.out" } else { "/%j.out" };
+    let mut options = vec![format!("--job-name={}", super::job_name(study))];
+    options.extend(is_array.then(|| format!("--array=0-{}{throttle}", jobs.len() - 1)));
+    options.extend([
+        // A node without a rank would compute nothing.
+        format!("--nodes={}", cluster.nodes.unwrap_or(1).min(crew.ranks)),
+        format!("--ntasks={}", crew.ranks),
+        format!("--cpus-per-task={}", crew.threads),
+    ]);
     let mut given = |name: &str, value: Option<String>| options.extend(value.map(|value| format!("--{name}={value}")));
     given("partition", cluster.partition.clone());
     given("account", cluster.account.clone());
@@ -106,7 +126,7 @@ fn text<'a>(
     let word = |path: &Path| quoted(&absolute(path).display().to_string());
     lines.push(format!("export CGAFT_SOLVE={}", word(solver)));
     lines.push(format!(
-        "exec {} slurm-job --results {} {} \"${{cases[$SLURM_ARRAY_TASK_ID]}}\"",
+        "exec {} slurm-job --results {} {} \"${{cases[${{SLURM_ARRAY_TASK_ID:-0}}]}}\"",
         word(program),
         word(results),
         quoted(study)

@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use crate::executor::{ExecutorError, Job};
-use crate::store::{self, Store};
+use crate::store::{self, Store, StoreError};
 
 /// What a job is to compute, where it finds it and where others find the job: `.slurm/<id>.json` beside the runs.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -27,7 +27,7 @@ impl Ticket {
     pub fn write(&self, store: &Store) -> Result<(), ExecutorError> {
         let path = path(store, &self.job.id);
         let folder = folder(store);
-        fs::create_dir_all(&folder).map_err(|source| ExecutorError::Log { path: folder, source })?;
+        fs::create_dir_all(&folder).map_err(|source| StoreError::Write { path: folder, source })?;
         let text = serde_json::to_vec_pretty(self).expect("a ticket has a JSON form");
         Ok(store::write(&path, &text)?)
     }

@@ -10,6 +10,7 @@ use super::commands::{self, Sighting};
 use super::script::{Setting, scripts};
 use super::{Ticket, ending, job_name, ticket};
 use crate::executor::queue::{starts_over, tail_of};
+use crate::executor::share::Crew;
 use crate::executor::{Ending, ExecutorError, Job, Stop, Watcher};
 use crate::store::{State, Store};
 
@@ -124,13 +125,13 @@ impl<'a> Watch<'a> {
         free.retain(|&job| !self.find_again(job, &seen) && !self.is_busy(job));
         let (store, settings) = (self.store, self.settings);
         for script in scripts(store, &settings.study, self.jobs, &free, &settings.setting) {
-            let ticket = |&job: &usize| ticket_for(store, &self.jobs[job], script.threads);
+            let ticket = |&job: &usize| ticket_for(store, &self.jobs[job], script.crew);
             let tickets: Vec<Ticket> = script.jobs.iter().map(ticket).collect();
             // The jobs may begin before `sbatch` has ended.
             tickets.iter().try_for_each(|ticket| ticket.write(store))?;
-            let array = commands::submit(&script.to_string())?;
+            let number = commands::submit(&script.to_string())?;
             for (task, (ticket, &job)) in tickets.into_iter().zip(&script.jobs).enumerate() {
-                let slurm_id = format!("{array}_{task}");
+                let slurm_id = script.slurm_id(number, task);
                 self.watcher.submitted(&self.jobs[job], &slurm_id);
                 let ticket = Ticket {
                     slurm_id: Some(slurm_id.clone()),
@@ -292,15 +293,16 @@ impl<'a> Watch<'a> {
 }
 
 /// A case that starts over says so with its time, so that a job that comes back to the queue does not start over again.
-fn ticket_for(store: &Store, job: &Job, threads: u32) -> Ticket {
+fn ticket_for(store: &Store, job: &Job, crew: Crew) -> Ticket {
     let submitted = Timestamp::now();
     let over = job.fresh.is_some() || starts_over(&store.state(&job.id));
     Ticket {
         job: Job {
             fresh: over.then_some(submitted),
+            ranks: Some(crew.ranks),
             ..job.clone()
         },
-        threads,
+        threads: crew.threads,
         submitted,
         slurm_id: None,
     }

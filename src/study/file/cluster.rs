@@ -15,13 +15,13 @@ pub struct ClusterFile {
     /// Longest time of one job, at least 1 min. A case that needs longer writes a checkpoint before it ends and queues
     /// again.
     pub time: Given<Duration>,
-    /// Nodes of a case; 1 in this version.
-    #[schemars(range(min = 1, max = 1))]
+    /// Nodes that the ranks of a case are spread over; 1 where left out.
+    #[schemars(range(min = 1))]
     pub nodes: Given<u32>,
-    /// MPI ranks of a case; 1 in this version.
-    #[schemars(range(min = 1, max = 1))]
+    /// MPI ranks of a case that does not say so itself; 1 where left out.
+    #[schemars(range(min = 1))]
     pub ranks: Given<u32>,
-    /// Threads of a case that does not say so itself; 1 where left out.
+    /// Threads of each rank of a case that does not say so itself; 1 where left out.
     #[schemars(range(min = 1))]
     pub threads: Given<u32>,
     /// Environment modules to load on the node.

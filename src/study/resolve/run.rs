@@ -235,7 +235,7 @@ impl Check<'_> {
         let threads = self.counted(&values.threads, "run.threads");
         let every = self.size_if_given(&values.checkpoint_every, "run.checkpoint-every");
         Some(Execution {
-            ranks: ranks?.unwrap_or(defaults::RANKS),
+            ranks: ranks?,
             threads: threads?,
             checkpoint_every: every?.map_or(defaults::CHECKPOINT_EVERY, |(every, _)| every),
         })

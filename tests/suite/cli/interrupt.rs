@@ -10,7 +10,7 @@ use super::{Workspace, of_cases};
 /// Long enough for a loaded machine; nothing waits so long when all is well.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-fn wait_for(what: &str, mut happened: impl FnMut() -> bool) {
+pub fn wait_for(what: &str, mut happened: impl FnMut() -> bool) {
     let start = Instant::now();
     while !happened() {
         assert!(start.elapsed() < PATIENCE, "waited too long for {what}");
@@ -18,7 +18,7 @@ fn wait_for(what: &str, mut happened: impl FnMut() -> bool) {
     }
 }
 
-fn signal(child: &Child, name: &str) {
+pub fn signal(child: &Child, name: &str) {
     assert!(
         Command::new("kill")
             .args([name, &child.id().to_string()])
@@ -41,7 +41,7 @@ fn at_work(place: &Workspace, behaviour: &str) -> Child {
     child
 }
 
-fn checkpoints(place: &Workspace) -> usize {
+pub fn checkpoints(place: &Workspace) -> usize {
     let runs = fs::read_dir(place.path("results/slab/runs")).unwrap().flatten();
     runs.filter(|run| run.path().join("checkpoint.h5").exists()).count()
 }

@@ -58,11 +58,30 @@ fn all_refusals_of_mesh_and_material_are_told_at_once_with_their_places() {
 #[test]
 fn results_that_this_version_cannot_read_are_an_error_of_the_input() {
     let place = Workspace::new();
-    fs::create_dir_all(place.path("results/slab")).unwrap();
-    fs::write(place.path("results/slab/store.json"), r#"{"format": 99}"#).unwrap();
-    let refused = place.cgaft(&["study", "run", "slab.yaml"]);
-    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
-    assert!(refused.stderr.contains("format 99"), "{}", refused.stderr);
+    place.cgaft(&["study", "run", "slab.yaml"]).succeeded();
+    let mark = place.path("results/slab/store.json");
+    let current = fs::read(&mark).unwrap();
+    for (text, format) in [
+        (r#"{"format": 0}"#, "format 0"),
+        (r#"{"format": 99}"#, "format 99"),
+        ("", "format unknown"),
+    ] {
+        fs::write(&mark, text).unwrap();
+        for command in ["run", "status", "report", "clean"] {
+            let refused = place.cgaft(&["study", command, "slab.yaml"]);
+            assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+            for told in [format, "use the version that wrote them", "--results DIR"] {
+                assert!(refused.stderr.contains(told), "no `{told}` in {}", refused.stderr);
+            }
+        }
+    }
+    fs::write(&mark, current).unwrap();
+    let again = place.cgaft(&["study", "run", "slab.yaml"]).succeeded();
+    assert_eq!(
+        again.stdout.matches(": done (unchanged)").count(),
+        3,
+        "nothing was lost"
+    );
 }
 
 #[test]
@@ -124,9 +143,6 @@ fn what_is_missing_on_the_machine_has_its_own_exit_code() {
     );
     assert_eq!(lost.code, Some(3));
     assert!(lost.stderr.contains("make install"), "{}", lost.stderr);
-    let refused = place.cgaft(&["study", "run", "slab.yaml", "--ranks", "2"]);
-    assert_eq!(refused.code, Some(3));
-    assert!(refused.stderr.contains("not in this version"), "{}", refused.stderr);
     assert!(!place.path("results").exists(), "nothing was started");
 }
 
@@ -266,8 +282,51 @@ fn the_small_commands_answer() {
             .contains("_cgaft")
     );
     let doctor = place.cgaft(&["doctor"]).succeeded();
-    for line in ["cgaft-solve", "cores", "memory", "HDF5", "mpirun", "Slurm", "python"] {
+    for line in ["cgaft-solve", "cores", "memory", "HDF5", "MPI", "Slurm", "python"] {
         assert!(doctor.stdout.contains(line), "{}", doctor.stdout);
     }
     assert_eq!(place.cgaft(&["study", "rnu", "slab.yaml"]).code, Some(2));
+}
+
+#[test]
+fn a_mistyped_name_of_a_study_is_answered_with_the_nearest() {
+    let place = Workspace::new();
+    for (typed, meant) in [("slap.yaml", "`slab.yaml`"), ("quikstart.yaml", "`quickstart.yaml`")] {
+        let refused = place.cgaft(&["study", "check", typed]);
+        assert_eq!(refused.code, Some(2));
+        assert!(
+            refused.stderr.contains(&format!("did you mean {meant}?")),
+            "{}",
+            refused.stderr
+        );
+    }
+}
+
+#[test]
+fn check_warns_of_a_time_step_near_the_limit() {
+    let place = Workspace::new();
+    let check = |time_step: &str| {
+        place.write_study(&STUDY.replace("run: {", &format!("run: {{time-step: {{fraction: {time_step}}}, ")));
+        place.cgaft(&["study", "check", "slab.yaml"]).succeeded().stdout
+    };
+    let risky = check("0.99");
+    assert!(
+        risky.contains("warning: A: the time step is 99 % of the limit"),
+        "{risky}"
+    );
+    assert!(!check("0.8").contains("warning"));
+}
+
+#[test]
+fn doctor_speaks_to_programs_too() {
+    let json = Workspace::new().cgaft(&["doctor", "--json"]).succeeded().json();
+    assert_eq!(json["ok"], true);
+    let whats: Vec<_> = json["findings"]
+        .as_array()
+        .unwrap()
+        .iter()
+        .map(|finding| &finding["what"])
+        .collect();
+    assert!(whats.contains(&&"MPI".into()), "{json}");
+    assert_eq!(json["findings"][0]["state"], "ok");
 }

@@ -1,5 +1,6 @@
 //! Cases as jobs of Slurm, for which a script stands in.
 
+mod arrays;
 mod refusals;
 mod stopping;
 
@@ -168,14 +169,14 @@ fn a_profile_of_ones_own_serves_all_studies_and_a_study_stands_over_it() {
         "{plan}"
     );
 
-    fs::write(&profile, "acount: fracture\nranks: 2\noptions: [--array=1-9]\n").unwrap();
+    fs::write(&profile, "acount: fracture\nranks: 0\noptions: [--array=1-9]\n").unwrap();
     let refused = cluster.cgaft("plan", &["--on", "slurm"]);
     assert_eq!(refused.code, Some(2));
     for told in [
         "cluster.yaml:1:",
         "`account`",
         "cluster.yaml:2:",
-        "MPI",
+        "`cluster.ranks` must be at least 1",
         "cluster.yaml:3:",
     ] {
         assert!(refused.stderr.contains(told), "no `{told}` in {}", refused.stderr);

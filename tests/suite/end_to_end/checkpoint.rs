@@ -47,3 +47,36 @@ fn a_checkpoint_of_a_specimen_that_has_exploded_is_a_failure_of_the_physics() {
     let said = said.ended_with(4);
     assert!(said.stderr.contains("kept in"), "{}", said.stderr);
 }
+
+/// What a failing disk does to a file: one bit is another one, or the rest is gone.
+#[derive(Clone, Copy, Debug)]
+enum Damage {
+    Bit(usize),
+    Length(usize),
+}
+
+#[test]
+fn a_damaged_checkpoint_is_told_and_the_case_starts_afresh() {
+    let place = Workspace::new();
+    place.cgaft("run", &["--only", "coarse"]).succeeded();
+    let whole = place.case("coarse");
+    let sound = fs::read(whole.join(CHECKPOINT_FILE)).unwrap();
+    let into = place.path("alone");
+    // In the title, the identity, the checksum, the first bytes of HDF5, the numbers and the end.
+    let bits = [2, 25, 60, 515, sound.len() / 2, sound.len() - 1].map(Damage::Bit);
+    let lengths = [0, 10, 511, sound.len() / 2, sound.len() - 1].map(Damage::Length);
+    for damage in bits.into_iter().chain(lengths) {
+        let mut bytes = sound.clone();
+        match damage {
+            Damage::Bit(at) => bytes[at] ^= 1,
+            Damage::Length(length) => bytes.truncate(length),
+        }
+        fs::create_dir(&into).unwrap();
+        fs::write(into.join(CHECKPOINT_FILE), bytes).unwrap();
+        let solve = &mut place.solver(&whole.join("case.yaml"), &into, &[]);
+        let said = Program::start(solve, &place).wait(PATIENCE).succeeded();
+        assert!(said.stderr.contains("; starting afresh"), "{damage:?}: {}", said.stderr);
+        assert_same_results(&into, &whole);
+        fs::remove_dir_all(&into).unwrap();
+    }
+}
