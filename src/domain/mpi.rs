@@ -19,11 +19,16 @@ pub struct Ranks {
 
 /// What lasts as long as ranks can talk.
 pub struct Session {
-    _universe: Universe,
+    /// `None` for a process that nobody has started beside others.
+    _universe: Option<Universe>,
 }
 
-/// To be called once, before anything else. From then on a panic of one rank ends all.
+/// To be called once, before anything else. From then on a panic of one rank ends all. A process on its own does without
+/// MPI, which would start a daemon for it.
 pub fn start() -> Result<(Ranks, Session), DomainError> {
+    if !is_launched() {
+        return Ok((Ranks::alone(), Session { _universe: None }));
+    }
     let (universe, threading) = mpi::initialize_with_threading(Threading::Serialized).expect("MPI starts only once");
     if threading < Threading::Serialized {
         return Err(DomainError::NoThreads);
@@ -50,7 +55,18 @@ pub fn start() -> Result<(Ranks, Session), DomainError> {
             world_of_all().abort(PANICKED);
         }));
     }
-    Ok((ranks, Session { _universe: universe }))
+    Ok((
+        ranks,
+        Session {
+            _universe: Some(universe),
+        },
+    ))
+}
+
+/// Whether mpirun or another launcher of parallel programs has started this process.
+fn is_launched() -> bool {
+    let told = ["OMPI_COMM_WORLD_SIZE", "PMIX_RANK", "PMI_RANK", "PMI_SIZE"];
+    told.iter().any(|name| std::env::var_os(name).is_some())
 }
 
 /// Rust's own exit code after a panic.
