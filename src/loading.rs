@@ -1,5 +1,9 @@
 //! Prescribed motion: what moves the specimen from outside, and the work it does.
 
+mod sponge;
+
+pub use sponge::Sponge;
+
 use crate::mesh::Mesh;
 use crate::state::State;
 
@@ -22,6 +26,7 @@ pub struct Stretching {
     pub ramp: bool,
     /// Nominal strain at the start.
     pub pre_strain: f64,
+    sponge: Option<Sponge>,
     /// Nodes of the lower and of the upper grip.
     nodes: [Vec<u32>; 2],
     /// Speed of each grip, nm/ps.
@@ -44,6 +49,7 @@ impl Stretching {
             grip,
             ramp,
             pre_strain: 0.0,
+            sponge: None,
             nodes,
             speed: 0.5 * rate * (high - low),
         }
@@ -52,6 +58,16 @@ impl Stretching {
     /// The same from a specimen that is already stretched to a nominal strain.
     pub fn from_strain(self, pre_strain: f64) -> Self {
         Self { pre_strain, ..self }
+    }
+
+    /// The same with layers before the grips that take waves out.
+    pub fn with_sponge(self, sponge: Option<Sponge>) -> Self {
+        Self { sponge, ..self }
+    }
+
+    /// Lets the sponge act for a time (ps); the kinetic energy that it takes, eV.
+    pub fn absorb(&mut self, state: &mut State, time: f64) -> f64 {
+        self.sponge.as_mut().map_or(0.0, |sponge| sponge.absorb(state, time))
     }
 
     /// Stretches a specimen from its reference positions to the strain of the start: the grips as they are, evenly what

@@ -163,10 +163,11 @@ fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings, conditions: &'a s
 
 /// How a specimen is held and set in motion, which its sizes and constants do not tell.
 fn conditions(case: &CaseResult) -> String {
-    const KEYS: [&str; 4] = [
+    const KEYS: [&str; 5] = [
         "specimen.grips",
         "loading.strain-rate.mode",
         "loading.strain-rate.ramp",
+        "loading.strain-rate.sponge",
         "run.relax.strain",
     ];
     let chosen = case.choices.iter().filter(|(key, _)| KEYS.contains(&key.as_str()));

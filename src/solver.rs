@@ -15,6 +15,7 @@ mod step;
 mod stop;
 mod temperature;
 mod time_step;
+mod traction;
 
 pub use cost::{Cost, Phase};
 pub use error::{RunError, SolverError};
@@ -40,6 +41,7 @@ use gauges::Gauges;
 use j_integral::JIntegral;
 use probe::ProfileLine;
 use schedule::Schedule;
+use traction::Traction;
 
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,6 +83,8 @@ pub struct Reading<'a> {
     pub probe: &'a Probe,
     /// Stress xx, yy, xy along the crack plane, eV/nm^3.
     pub profile: &'a [[f64; 3]],
+    /// Traction x, y across the crack plane in the bins of the profile, eV/nm^3.
+    pub traction: &'a [[f64; 2]],
     /// Velocity x, y (nm/ps) and stress xx, yy, xy (eV/nm^3) of every wave gauge.
     pub gauges: &'a [[f64; 5]],
     /// Bonds that changed since the row before.
@@ -119,6 +123,7 @@ pub struct Solver {
     settings: Settings,
     setting: Setting,
     profile: ProfileLine,
+    traction: Traction,
     gauges: Gauges,
     j_integral: JIntegral,
     step: u64,
@@ -156,6 +161,7 @@ impl Solver {
         loading.start(&mesh, &mut state);
         let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let profile = ProfileLine::new(&mesh, &setting);
+        let traction = Traction::new(&mesh, &material, &profile, &setting);
         let gauges = Gauges::new(&mesh, &setting);
         let j_integral = JIntegral::new(&mesh, material);
         let tracker = Tracker::new(&setting);
@@ -181,6 +187,7 @@ impl Solver {
             settings,
             setting,
             profile,
+            traction,
             gauges,
             j_integral,
             step: 0,

@@ -14,7 +14,8 @@ pub const FROM_ELEMENTS: f64 = 1.0;
 /// The fit ends at this share of the crack length, the ligament or the height, whichever is smallest.
 pub const TO_SHARE: f64 = 1.0 / 3.0;
 
-/// A tip farther than this from the plane of the profile has kinked.
+/// A tip farther than this, and than an element edge, from the plane of the profile has kinked: the first edge that a
+/// coarse mesh opens may lead off the plane, and is still within what the fit and the rings leave out.
 pub const OFF_PLANE_SPACINGS: f64 = 2.0;
 
 /// Bins that a fit of two numbers with an error must have.
@@ -27,6 +28,12 @@ pub const RING_ELEMENTS: f64 = 6.0;
 
 /// How much of the distance to the nearest edge or grip the rings may take.
 pub const RING_CLEAR_SHARE: f64 = 0.9;
+
+/// Whether a tip is so near to the crack plane that the field around it is that of a crack along the plane.
+pub fn on_plane(tip: Tip, setting: &Setting) -> bool {
+    let edge = f64::from(setting.element_at_crack);
+    tip.y.abs() <= OFF_PLANE_SPACINGS.max(edge) * setting.spacing
+}
 
 /// Result of the fit `sigma_yy sqrt(2 pi r) = K (1 + c r)` ahead of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +50,7 @@ pub struct NearTip {
 /// K from the profile of one probe; `None` where the range holds too few bins, and where the tip has left the plane
 /// of the profile, so that the field ahead of it is not the one measured.
 pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> Option<NearTip> {
-    if tip.y.abs() > OFF_PLANE_SPACINGS * setting.spacing {
+    if !on_plane(tip, setting) {
         return None;
     }
     let tip = tip.x;

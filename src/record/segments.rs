@@ -62,6 +62,7 @@ fn append(series: &mut Series, first_probe: u64, mut part: Series) -> Result<(),
     series.gauge_places = part.gauge_places;
     series.probes.append(&mut part.probes);
     series.profiles.append(&mut part.profiles);
+    series.tractions.append(&mut part.tractions);
     series.gauges.append(&mut part.gauges);
     series.bonds.append(&mut part.bonds);
     Ok(())

@@ -50,6 +50,7 @@ impl Ledger {
         *self = Self::new(start, kinetic, self.jump);
     }
 
+    /// What grips put in, less what sponges take out.
     pub fn add_work(&mut self, work: f64) {
         self.work += work;
         self.peak_work = self.peak_work.max(self.work.abs());

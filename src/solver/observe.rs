@@ -48,9 +48,11 @@ impl Solver {
         }
         let row = self.probe_row(measure);
         let profile = self.profile.stress(measure, &self.setting);
+        let traction = self.traction.read(self.forces.material(), &self.state);
         let reading = Reading {
             probe: &row,
             profile: &profile,
+            traction: &traction,
             gauges: &self
                 .gauges
                 .read(self.forces.mesh(), &self.state, measure, &self.setting),

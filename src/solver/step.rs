@@ -30,6 +30,7 @@ impl Solver {
         }
         let kicks = 1 + u32::from(self.due_kick.take().is_some());
         integrator::kick_and_drift(&mut self.state, kicks, time_step);
+        let absorbed = self.loading.absorb(&mut self.state, time_step);
         self.step += 1;
         self.time += time_step;
         self.cost.book(Phase::Motion, &mut clock);
@@ -39,7 +40,8 @@ impl Solver {
         self.cost.book(Phase::Forces, &mut clock);
         self.due_kick = Some(0.5 * time_step);
         let power = self.loading.power(&self.state);
-        self.ledger.add_work(0.5 * time_step * (self.power + power));
+        self.ledger
+            .add_work(0.5 * time_step * (self.power + power) - absorbed);
         self.power = power;
         self.cost.book(Phase::Motion, &mut clock);
         if self.step.is_multiple_of(time_step::CHECK_EVERY) {
