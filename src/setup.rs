@@ -154,9 +154,7 @@ pub fn solver(case: &Case) -> Result<Solver, SetupError> {
     let loading = Stretching::new(&mesh, rate, grip, ramp == case::Ramp::InitialVelocity);
     let wave_speed = WaveSpeeds::of(&material).longitudinal;
     let sponge = sponge.map(|width| Sponge::new(&mesh, width, wave_speed, rate));
-    let loading = loading
-        .from_strain(case.run.relax.unwrap_or(0.0))
-        .with_sponge(sponge);
+    let loading = loading.from_strain(case.run.relax.unwrap_or(0.0)).with_sponge(sponge);
     Ok(Solver::new(mesh, material, loading, settings(case, rate))?)
 }
 

@@ -1,5 +1,7 @@
 //! Stress intensity factors, internal units eV/nm^2.5 (a stress in eV/nm^3 times the root of a length in nm).
 
+pub mod handbook;
+
 use std::f64::consts::PI;
 
 use super::crack::Tip;
@@ -57,8 +59,8 @@ pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> O
     let from = setting.spacing * FROM_SPACINGS.max(FROM_ELEMENTS * f64::from(setting.element_at_crack));
     let to = TO_SHARE * tip.min(setting.length - tip).min(setting.height);
     let points: Vec<(f64, f64)> = ahead(series, probe, tip)
-        .filter(|(r, stress)| (from..=to).contains(r) && stress[1].is_finite())
-        .map(|(r, stress)| (r, stress[1] * (2.0 * PI * r).sqrt()))
+        .filter(|(r, stress, _)| (from..=to).contains(r) && stress[1].is_finite())
+        .map(|(r, stress, _)| (r, stress[1] * (2.0 * PI * r).sqrt()))
         .collect();
     if points.len() < LEAST_BINS {
         return None;
@@ -106,17 +108,15 @@ pub fn griffith(setting: &Setting) -> f64 {
     (setting.fracture_energy * setting.young_modulus).sqrt() / setting.thickness
 }
 
-/// The profile of one probe ahead of a tip: distance (nm) and stress xx, yy, xy (eV/nm^3) of each bin.
-pub fn ahead(series: &Series, probe: usize, tip: f64) -> impl Iterator<Item = (f64, [f64; 3])> {
+/// The profile of one probe ahead of a tip: distance (nm), stress xx, yy, xy and, where it was recorded, traction x, y
+/// (eV/nm^3) of each bin.
+pub fn ahead(series: &Series, probe: usize, tip: f64) -> impl Iterator<Item = (f64, [f64; 3], Option<[f64; 2]>)> {
     let bins = series.profile_x.len();
-    let row = series
-        .profiles
-        .get(probe * bins..(probe + 1) * bins)
-        .unwrap_or_default();
-    series
-        .profile_x
-        .iter()
-        .zip(row)
-        .map(move |(x, stress)| (x - tip, *stress))
-        .filter(|(r, _)| *r > 0.0)
+    let row = probe * bins..(probe + 1) * bins;
+    let stresses = series.profiles.get(row.clone()).unwrap_or_default();
+    let tractions = series.tractions.get(row).unwrap_or_default();
+    let places = series.profile_x.iter().zip(stresses).enumerate();
+    places
+        .map(move |(bin, (x, stress))| (x - tip, *stress, tractions.get(bin).copied()))
+        .filter(|(r, ..)| *r > 0.0)
 }

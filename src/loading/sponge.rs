@@ -143,7 +143,9 @@ mod tests {
     fn a_sponge_takes_as_much_energy_as_the_specimen_loses_whatever_its_masses() {
         let (mesh, mut state) = specimen();
         state.couple_masses(mesh.mass_couplings());
-        let speeds = (0..state.nodes()).map(|node| 0.1 + 0.01 * node as f64).collect::<Vec<_>>();
+        let speeds = (0..state.nodes())
+            .map(|node| 0.1 + 0.01 * node as f64)
+            .collect::<Vec<_>>();
         state.velocity = [speeds.clone(), speeds];
         let before = state.kinetic_energy();
         let mut sponge = Sponge::new(&mesh, 10.0, 9.0, RATE);

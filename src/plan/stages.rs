@@ -37,12 +37,20 @@ pub fn resolve(study: &Study, drafts: &[Draft], findings: &Findings) -> Option<S
         Given::Wrong(_) => None,
     };
     let strains = match &stages.strains {
-        Given::Right(strains, _) => Some(strains.iter().filter_map(|strain| Some(strain.right()?.value)).collect()),
+        Given::Right(strains, _) => Some(
+            strains
+                .iter()
+                .filter_map(|strain| Some(strain.right()?.value))
+                .collect(),
+        ),
         Given::Absent => {
             missing("strains", "[0.5 %, 1 %]");
             None
         }
         Given::Wrong(_) => None,
     };
-    Some(Stages { case: case?, strains: strains? })
+    Some(Stages {
+        case: case?,
+        strains: strains?,
+    })
 }

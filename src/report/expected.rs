@@ -4,6 +4,7 @@ use polars::prelude::Column;
 
 use super::numbers::{ABSENT, signed_percent, significant};
 use super::tables::{Rows, Table};
+use super::toughness::Definition;
 use crate::plan::{Comparison, Expected};
 
 /// Digits of a value on the page.
@@ -15,12 +16,12 @@ pub struct Line<'a> {
     source: &'a str,
     case: &'a str,
     /// Column of the tables.
-    column: &'a str,
+    pub column: &'a str,
     /// What tells it from other values of the case in that column, such as `longitudinal; left face`.
     of: Option<String>,
     /// `None` where the case has no such value.
-    measured: Option<f64>,
-    reference: f64,
+    pub measured: Option<f64>,
+    pub reference: f64,
 }
 
 impl Line<'_> {
@@ -49,7 +50,8 @@ impl Line<'_> {
     }
 }
 
-/// The lines of a comparison. What a wave is compared with stands beside its prediction and its measurement.
+/// The lines of a comparison. What is compared with several quantities (of a wave prediction and measurement, of a
+/// toughness every definition) stands beside each.
 pub fn lines<'a>(comparison: &'a Comparison, tables: &[Table]) -> Vec<Line<'a>> {
     let table = tables.iter().find(|table| table.name == comparison.table);
     let line = |expected: &'a Expected, column: &'a str| Line {
@@ -62,6 +64,8 @@ pub fn lines<'a>(comparison: &'a Comparison, tables: &[Table]) -> Vec<Line<'a>> 
     };
     let columns = |expected: &Expected| match expected.column {
         "reference_ps" => vec!["predicted_ps", "measured_ps"],
+        "reference_from_ps" | "reference_to_ps" => vec!["after_start_ps"],
+        "k_ic_reference_mpa_sqrt_m" => Definition::ALL.map(Definition::column).to_vec(),
         own => vec![own],
     };
     comparison

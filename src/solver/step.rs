@@ -40,8 +40,7 @@ impl Solver {
         self.cost.book(Phase::Forces, &mut clock);
         self.due_kick = Some(0.5 * time_step);
         let power = self.loading.power(&self.state);
-        self.ledger
-            .add_work(0.5 * time_step * (self.power + power) - absorbed);
+        self.ledger.add_work(0.5 * time_step * (self.power + power) - absorbed);
         self.power = power;
         self.cost.book(Phase::Motion, &mut clock);
         if self.step.is_multiple_of(time_step::CHECK_EVERY) {

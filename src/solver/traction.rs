@@ -98,6 +98,82 @@ fn site(mesh: &Mesh, site: [i32; 2]) -> Option<Site> {
 impl Site {
     fn place(&self, state: &State, axis: usize) -> f64 {
         let carried = self.nodes.iter().zip(self.shares);
-        carried.map(|(&node, share)| share * state.position[axis][node as usize]).sum()
+        carried
+            .map(|(&node, share)| share * state.position[axis][node as usize])
+            .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::Forces;
+    use crate::mesh::Plan;
+    use crate::mesh::region::{Region, Shape};
+    use crate::mesh::sites::Layout;
+    use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
+    use crate::solver::setting::setting;
+
+    /// Rounding of sums of some hundred bonds.
+    const ROUNDING: f64 = 1e-9;
+
+    /// A stretched specimen of elements with atoms along its middle, and its stress where it is even.
+    fn stretched(cutoff: f64, strain: f64) -> ([f64; 2], Vec<[f64; 2]>, Vec<f64>) {
+        let law = LennardJones {
+            epsilon: 1.0,
+            sigma: 1.0,
+        };
+        let at_cutoff = AtCutoff::Smooth { from: 0.9 * cutoff };
+        let law = CutPotential::new(law, cutoff, at_cutoff);
+        let material = Material::new(Interaction::LennardJones(law), 1.0).unwrap();
+        let mesh = Mesh::new(&Plan {
+            layout: Layout {
+                block: 5,
+                rows: 12,
+                triangles: 21,
+            },
+            element: 5,
+            regions: vec![Region {
+                shape: Shape::Band { half_width: 3.0 },
+                element: 1,
+            }],
+            crack_length: None,
+            grip_rows: 5,
+            spacing: material.spacing,
+        });
+        let loading = crate::loading::Stretching::new(&mesh, 1e-3, crate::loading::Grip::Clamped, false);
+        let setting = setting(&mesh, &material, &loading, 1.0);
+        let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
+        state.position[1].iter_mut().for_each(|y| *y *= 1.0 + strain);
+        let profile = ProfileLine::new(&mesh, &setting);
+        let traction = Traction::new(&mesh, &material, &profile, &setting);
+        let found = traction.read(&material, &state);
+        let centres = profile.centres().to_vec();
+        let mut forces = Forces::new(mesh, material);
+        forces.compute(&state.position, &mut state.force).unwrap();
+        let measure = forces.measure_computed(&state.position);
+        let stress = profile.stress(&measure, &setting);
+        let middle = stress.len() / 2;
+        ([stress[middle][2], stress[middle][1]], found, centres)
+    }
+
+    #[test]
+    fn the_traction_of_even_stretching_is_its_stress_whatever_carries_the_sites() {
+        for cutoff in [1.6, 2.5] {
+            let strain = 0.01;
+            let ([shear, stress], traction, centres) = stretched(cutoff, strain);
+            let inside = |x: &f64| (0.3..0.7).contains(&(x / centres[centres.len() - 1]));
+            let even = traction.iter().zip(&centres).filter(|(_, x)| inside(x));
+            // Bins do not hold equally many bonds: their mean does.
+            let [sum, count] = even.fold([0.0, 0.0], |[sum, count], (t, _)| [sum + t[1], count + 1.0]);
+            assert!(shear.abs() < ROUNDING);
+            // The virial over the reference area weighs bonds as they are stretched, the traction as they were.
+            let expected = stress / (1.0 + strain);
+            assert!(
+                (sum / count / expected - 1.0).abs() < 0.02,
+                "{} {expected}",
+                sum / count
+            );
+        }
     }
 }
