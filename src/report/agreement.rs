@@ -118,7 +118,7 @@ fn waves(cases: &[Analysed]) -> Option<String> {
     let lines: Vec<String> = cases.iter().filter_map(line).collect();
     (!lines.is_empty()).then(|| {
         format!(
-            "By their speeds and the notch's tip are back by then: {}.",
+            "By their speeds and the path of the tip are back at it by then: {}.",
             lines.join("; ")
         )
     })
@@ -126,7 +126,7 @@ fn waves(cases: &[Analysed]) -> Option<String> {
 
 /// How far predicted and measured arrivals are from the source's.
 fn arrivals(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
-    let mut offs = [Vec::new(), Vec::new()];
+    let mut offs = [const { Vec::new() }; 3];
     for case in cases {
         for arrival in &case.findings.arrivals {
             let keys = [super::tables::wave_name(arrival), super::tables::path_name(arrival)];
@@ -134,19 +134,26 @@ fn arrivals(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
                 continue;
             };
             offs[0].push(arrival.predicted / reference - 1.0);
-            offs[1].extend(arrival.measured.map(|measured| measured / reference - 1.0));
+            offs[1].extend(arrival.at_running_tip.map(|time| time / reference - 1.0));
+            offs[2].extend(arrival.measured.map(|measured| measured / reference - 1.0));
         }
     }
     let largest = |offs: &[f64]| offs.iter().fold(0.0, |largest: f64, off| largest.max(off.abs()));
     let line = |kind: &str, offs: &[f64]| {
         format!(
-            "{} {kind} arrivals are off the source's by {} on average, {} % at most",
+            "{} arrivals {kind} are off the source's by {} on average, {} % at most",
             offs.len(),
             signed_percent(mean(offs)),
             significant(100.0 * largest(offs), 2)
         )
     };
-    let kinds = ["predicted", "measured"].into_iter().zip(&offs);
+    let kinds = [
+        "predicted at the end of the notch",
+        "predicted at the running tip",
+        "measured",
+    ]
+    .into_iter()
+    .zip(&offs);
     let lines: Vec<String> = kinds
         .filter(|(_, offs)| !offs.is_empty())
         .map(|(kind, offs)| line(kind, offs))

@@ -31,11 +31,11 @@ pub fn waves_before(case: &Analysed) -> Vec<String> {
         return Vec::new();
     };
     let mut arrivals: Vec<_> = case.findings.arrivals.iter().collect();
-    arrivals.retain(|arrival| arrival.predicted <= branch);
-    arrivals.sort_by(|a, b| a.predicted.total_cmp(&b.predicted));
+    arrivals.retain(|arrival| arrival.at_tip() <= branch);
+    arrivals.sort_by(|a, b| a.at_tip().total_cmp(&b.at_tip()));
     let name = |arrival: &&Arrival| {
         let [wave, path] = [wave_name(arrival), path_name(arrival)];
-        format!("{wave} from the {path} ({:.0} ps)", arrival.predicted)
+        format!("{wave} from the {path} ({:.0} ps)", arrival.at_tip())
     };
     arrivals.iter().map(name).collect()
 }

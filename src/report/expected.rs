@@ -2,7 +2,7 @@
 
 use polars::prelude::Column;
 
-use super::numbers::{ABSENT, signed_percent, significant};
+use super::numbers::{ABSENT, count, signed_percent, significant};
 use super::tables::{Rows, Table};
 use super::toughness::Definition;
 use crate::plan::{Comparison, Expected};
@@ -42,11 +42,18 @@ impl Line<'_> {
         [
             self.case.to_owned(),
             quantity,
-            self.measured
-                .map_or_else(absent, |value| significant(value, SHOWN_DIGITS)),
-            significant(self.reference, SHOWN_DIGITS),
+            self.measured.map_or_else(absent, shown),
+            shown(self.reference),
             self.difference().map_or_else(absent, signed_percent),
         ]
+    }
+}
+
+/// Counts in full, other numbers rounded.
+fn shown(value: f64) -> String {
+    match value.fract() == 0.0 && value >= 1.0 {
+        true => count(value as u64),
+        false => significant(value, SHOWN_DIGITS),
     }
 }
 
@@ -63,7 +70,7 @@ pub fn lines<'a>(comparison: &'a Comparison, tables: &[Table]) -> Vec<Line<'a>> 
         reference: expected.value,
     };
     let columns = |expected: &Expected| match expected.column {
-        "reference_ps" => vec!["predicted_ps", "measured_ps"],
+        "reference_ps" => vec!["predicted_ps", "at_running_tip_ps", "measured_ps"],
         "reference_from_ps" | "reference_to_ps" => vec!["after_start_ps"],
         "k_ic_reference_mpa_sqrt_m" => Definition::ALL.map(Definition::column).to_vec(),
         own => vec![own],

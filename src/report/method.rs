@@ -116,8 +116,8 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Waves",
             format!(
-                "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves and a \
-                 tip at rest. Measured: wave gauges halfway to the grips and halfway to the left edge record the mean \
+                "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves, to a \
+                 tip at rest and (at the running tip) to where it is by then. Measured: wave gauges halfway to the grips and halfway to the left edge record the mean \
                  velocity v and stress σ of a patch; σ ± ρcv is what a plane wave brings back towards the tip, and is \
                  untouched by what leaves it. Where it bends most, where its mean over the next {} % of the predicted \
                  time lies farthest off its line over the {} % before, the wave is at the gauge, and the way from there \

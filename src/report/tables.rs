@@ -315,6 +315,7 @@ fn wave_arrival(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Column> {
             let keys = [wave_name(row.1), path_name(row.1)];
             expected::value(comparisons, "wave_arrival", row.0.name(), &keys)
         }),
+        rows.number("at_running_tip_ps", |row| row.1.at_running_tip),
     ]
 }
 

@@ -40,7 +40,10 @@ const COLUMNS: [(&str, &str); 9] = [
         "case,time_ps,strain,sigma_xx_gpa,sigma_yy_gpa,kinetic_energy_ev,potential_energy_ev,work_ev,\
          cutoff_release_ev,temperature_k",
     ),
-    ("wave_arrival", "case,wave,path,predicted_ps,measured_ps,reference_ps"),
+    (
+        "wave_arrival",
+        "case,wave,path,predicted_ps,measured_ps,reference_ps,at_running_tip_ps",
+    ),
     (
         "k_ic",
         "case,k_near_tip_mpa_sqrt_m,k_j_integral_mpa_sqrt_m,k_energy_balance_mpa_sqrt_m,k_between_grips_mpa_sqrt_m,\

@@ -20,7 +20,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
     let branch = branching::after_start(case)?;
     let rayleigh = case.rayleigh_speed()?;
     let arrivals = &case.findings.arrivals;
-    let last = arrivals.iter().map(|arrival| arrival.predicted).fold(branch, f64::max);
+    let last = arrivals.iter().map(Arrival::at_tip).fold(branch, f64::max);
     let rows = case.result.series.probes.iter().zip(&case.findings.speeds);
     let shown = -BEFORE * last..(1.0 + BEYOND) * last;
     let speed: Vec<(f64, f64)> = rows
@@ -44,10 +44,10 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
     ];
     let styles = [2, 3, 5, 6, 9];
     let mut in_time: Vec<&Arrival> = arrivals.iter().collect();
-    in_time.sort_by(|a, b| a.predicted.total_cmp(&b.predicted));
+    in_time.sort_by(|a, b| a.at_tip().total_cmp(&b.at_tip()));
     let waves = in_time.into_iter().zip(styles).map(|(arrival, style)| {
         let from = path_name(arrival).replace(" faces", "").replace(" face", "");
-        mark(style, format!("{}, {from}", wave_name(arrival)), arrival.predicted)
+        mark(style, format!("{}, {from}", wave_name(arrival)), arrival.at_tip())
     });
     curves.extend(waves);
     Some(Chart {
@@ -56,7 +56,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
         table: "crack_speed",
         title: format!("Crack speed of {}, branching and returning waves", case.name()),
         caption: "Speed of the foremost tip over the Rayleigh speed; time counts from the start of the crack. Vertical lines: \
-                  its start, its first branch, and when waves sent out at the start are back at the end of the notch by \
+                  its start, its first branch, and when waves sent out at the start are back at the running tip by \
                   their speeds. The standard error of the speed is in the table."
             .to_owned(),
         x: "time after the crack starts (ps)".to_owned(),

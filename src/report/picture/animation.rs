@@ -14,8 +14,8 @@ use crate::report::{Analysed, ReportError, numbers};
 
 pub const FILE: &str = "motion.png";
 
-const WIDTH: usize = 640;
-const TALLEST: usize = 640;
+const WIDTH: usize = 480;
+const TALLEST: usize = 480;
 const PICTURES_A_SECOND: u16 = 10;
 
 /// Colours of the scale; white is one more.
