@@ -7,7 +7,7 @@ MPI_PACKAGES = libopenmpi-dev openmpi-bin $(shell .ci/libclang)
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test verify bench speed-against-error check lint schema setup test-setup install
+.PHONY: help quickstart build test verify bench speed-against-error models-A-E check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
@@ -16,6 +16,7 @@ help:
 	@echo 'make verify       the long verification: closed forms, the same specimens in LAMMPS, and a real Slurm, which it installs; writes docs/verification.md'
 	@echo 'make bench        what a step, a run and a command cost on this machine, beside LAMMPS; writes docs/performance.md'
 	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
+	@echo 'make models-A-E   models A to E of Deng (2011) at full size; writes reports/models-A-E'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
 	@echo 'make schema       write schemas/study.schema.json again from the types'
@@ -57,6 +58,15 @@ speed-against-error: build
 	cp -r $(TARGET)/results/speed-against-error/tables $(TARGET)/results/speed-against-error/figures reports/speed-against-error
 	rm reports/speed-against-error/figures/*.png reports/speed-against-error/tables/stress_*.csv reports/speed-against-error/tables/crack_speed.csv
 	grep -v figures/slab- $(TARGET)/results/speed-against-error/report.md > reports/speed-against-error/report.md
+
+# Long tables, the pictures of every end and the page itself (megabytes) stay with the results.
+models-A-E: build
+	$(TARGET)/release/cgaft study run studies/models-A-E.yaml --results $(TARGET)/results
+	mkdir -p reports/models-A-E
+	rm -rf reports/models-A-E/tables reports/models-A-E/figures
+	cp -r $(TARGET)/results/models-A-E/tables $(TARGET)/results/models-A-E/figures reports/models-A-E
+	rm -f reports/models-A-E/figures/slab-*.png reports/models-A-E/tables/stress_strain.csv reports/models-A-E/tables/crack_speed.csv
+	sed '/figures\/slab-/d' $(TARGET)/results/models-A-E/report.md > reports/models-A-E/report.md
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \

@@ -51,7 +51,7 @@ pub fn analyse(series: &Series, setting: &Setting) -> Findings {
     let near_tip = before.and_then(|probe| stress_intensity::near_tip(series, probe, history.tips[probe], setting));
     let from_j = before.and_then(|probe| stress_intensity::from_j(series, probe, setting));
     Findings {
-        arrivals: waves::arrivals(history.tips.first().map(|tip| tip.x), initiation, series, setting),
+        arrivals: waves::arrivals(&history.tips, initiation, series, setting),
         tips: history.tips,
         branches: history.branches,
         initiation,

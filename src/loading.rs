@@ -1,9 +1,14 @@
 //! Prescribed motion: what moves the specimen from outside, and the work it does.
 
 mod impulse;
+mod sponge;
 
 pub use impulse::Impulse;
+pub use sponge::Sponge;
 
+use std::ops::Range;
+
+use crate::domain::Ranks;
 use crate::mesh::Mesh;
 use crate::state::State;
 
@@ -26,6 +31,7 @@ pub struct Stretching {
     pub ramp: bool,
     /// Nominal strain at the start.
     pub pre_strain: f64,
+    sponge: Option<Sponge>,
     /// Nodes of the lower and of the upper grip.
     nodes: [Vec<u32>; 2],
     /// Speed of each grip, nm/ps.
@@ -48,6 +54,7 @@ impl Stretching {
             grip,
             ramp,
             pre_strain: 0.0,
+            sponge: None,
             nodes,
             speed: 0.5 * rate * (high - low),
         }
@@ -56,6 +63,38 @@ impl Stretching {
     /// The same from a specimen that is already stretched to a nominal strain.
     pub fn from_strain(self, pre_strain: f64) -> Self {
         Self { pre_strain, ..self }
+    }
+
+    /// The same with layers before the grips that take waves out.
+    pub fn with_sponge(self, sponge: Option<Sponge>) -> Self {
+        Self { sponge, ..self }
+    }
+
+    /// Lets the sponge act on these ranges of nodes for a time, ps.
+    pub fn absorb(&mut self, state: &mut State, nodes: &[Range<usize>], time: f64) {
+        if let Some(sponge) = &mut self.sponge {
+            sponge.absorb(state, nodes, time);
+        }
+    }
+
+    /// Kinetic energy that the sponge has taken so far from each of its elements, eV; none without a sponge. All ranks must
+    /// call this together.
+    pub fn absorbed(&self, ranks: Ranks) -> Vec<f64> {
+        self.sponge
+            .as_ref()
+            .map_or_else(Vec::new, |sponge| sponge.absorbed(ranks))
+    }
+
+    /// Goes back to what [`Self::absorbed`] gave, for one that now acts on these ranges of nodes.
+    pub fn restore_absorbed(&mut self, absorbed: &[f64], nodes: &[Range<usize>]) {
+        if let Some(sponge) = &mut self.sponge {
+            sponge.restore(absorbed, nodes);
+        }
+    }
+
+    /// Elements in the sponge.
+    pub fn sponge_size(&self) -> usize {
+        self.sponge.as_ref().map_or(0, Sponge::size)
     }
 
     /// Stretches a specimen from its reference positions to the strain of the start: the grips as they are, evenly what

@@ -7,6 +7,7 @@ mod identity;
 mod name;
 mod range;
 mod spelling;
+mod stages;
 mod starter;
 mod sweep;
 mod write;
@@ -15,6 +16,7 @@ pub use comparison::{COMPARED, Compared, Comparison, Expected};
 pub use difference::explain_difference;
 pub use identity::CaseId;
 pub use spelling::spelled;
+pub use stages::Stages;
 pub use starter::starter;
 pub use write::write_case;
 
@@ -32,6 +34,8 @@ pub struct Plan {
     pub question: Option<String>,
     /// Headline of the report.
     pub title: Option<String>,
+    /// The case to be shown in pictures, and at which strains.
+    pub stages: Option<Stages>,
     /// What the results are to be compared with.
     pub comparisons: Vec<Comparison>,
     pub cases: Vec<PlannedCase>,
@@ -65,6 +69,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let drafts = expansion::expand(content, findings);
     let number = drafts.len();
     let comparisons = comparison::read(study, &drafts, findings);
+    let stages = stages::resolve(study, &drafts, findings);
     let cluster = study::cluster::resolve(&content.cluster, findings);
     for draft in drafts {
         if let Some(first) = places.insert(draft.name.to_lowercase(), draft.place) {
@@ -95,6 +100,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         study: name,
         question: text(&content.question),
         title: content.report.right().and_then(|report| text(&report.title)),
+        stages,
         comparisons,
         cases,
         cluster,

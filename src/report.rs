@@ -1,8 +1,12 @@
 //! A study's results as tables, figures and one page that says what came out and what it cost.
 
+mod agreement;
+mod ahead;
+mod branching;
 mod chart;
 mod expected;
 mod figures;
+mod film;
 mod method;
 mod numbers;
 mod page;
@@ -13,8 +17,10 @@ mod slab;
 mod study;
 mod summary;
 mod tables;
+mod toughness;
 mod units;
 
+pub use film::Film;
 pub use study::{CaseResult, Failure, Manifest, Phase, Study};
 
 use std::fs;
@@ -98,14 +104,14 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         )?;
         drawn.push(svg);
     }
-    let gallery = picture::draw_all(&cases, &folder.join("figures"))?;
+    let galleries = picture::draw_all(&cases, study.stages.as_ref(), &folder.join("figures"))?;
     let page = page::Page {
         study,
         cases: &cases,
         tables: &tables,
         charts: &charts,
         drawn: &drawn,
-        gallery: &gallery,
+        galleries: &galleries,
     };
     save(&folder.join("report.html"), page.html()?.as_bytes())?;
     save(&folder.join("report.md"), page.markdown()?.as_bytes())
@@ -163,10 +169,11 @@ fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings, conditions: &'a s
 
 /// How a specimen is held and set in motion, which its sizes and constants do not tell.
 fn conditions(case: &CaseResult) -> String {
-    const KEYS: [&str; 4] = [
+    const KEYS: [&str; 5] = [
         "specimen.grips",
         "loading.strain-rate.mode",
         "loading.strain-rate.ramp",
+        "loading.strain-rate.sponge",
         "run.relax.strain",
     ];
     let chosen = case.choices.iter().filter(|(key, _)| KEYS.contains(&key.as_str()));

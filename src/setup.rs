@@ -16,7 +16,7 @@ use std::time::Duration;
 use crate::domain::Ranks;
 use crate::forces::Summation;
 use crate::lattice::triangular;
-use crate::loading::{Grip, Stretching};
+use crate::loading::{Grip, Sponge, Stretching};
 use crate::material::{Material, WaveSpeeds};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::Layout;
@@ -151,13 +151,16 @@ pub fn shared_solver(case: &Case, ranks: Ranks) -> Result<Solver, SetupError> {
         mode: case::Mode::I,
         rate,
         ramp,
+        sponge,
     } = case.loading;
     let grip = match case.specimen.grips {
         case::Grips::Clamped => Grip::Clamped,
         case::Grips::Sliding => Grip::Sliding,
     };
     let loading = Stretching::new(&mesh, rate, grip, ramp == case::Ramp::InitialVelocity);
-    let loading = loading.from_strain(case.run.relax.unwrap_or(0.0));
+    let wave_speed = WaveSpeeds::of(&material).longitudinal;
+    let sponge = sponge.map(|width| Sponge::new(&mesh, width, wave_speed, rate));
+    let loading = loading.from_strain(case.run.relax.unwrap_or(0.0)).with_sponge(sponge);
     Ok(Solver::shared(ranks, mesh, material, loading, settings(case, rate))?)
 }
 

@@ -15,6 +15,7 @@ mod step;
 mod stop;
 mod temperature;
 mod time_step;
+mod traction;
 
 pub use cost::{Cost, Phase};
 pub use error::{RunError, SolverError};
@@ -42,6 +43,7 @@ use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
 use schedule::Schedule;
 use temperature::Thermometer;
+use traction::Traction;
 
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +85,8 @@ pub struct Reading<'a> {
     pub probe: &'a Probe,
     /// Stress xx, yy, xy along the crack plane, eV/nm^3.
     pub profile: &'a [[f64; 3]],
+    /// Traction x, y across the crack plane in the bins of the profile, eV/nm^3.
+    pub traction: &'a [[f64; 2]],
     /// Velocity x, y (nm/ps) and stress xx, yy, xy (eV/nm^3) of every wave gauge.
     pub gauges: &'a [[f64; 5]],
     /// Bonds that changed since the row before.
@@ -122,6 +126,7 @@ pub struct Solver {
     setting: Setting,
     interior: Interior,
     profile: ProfileLine,
+    traction: Traction,
     gauges: Gauges,
     thermometer: Thermometer,
     j_integral: JIntegral,
@@ -135,6 +140,8 @@ pub struct Solver {
     grip_impulse: Impulse,
     /// Of all ranks, at the last observation.
     grip_impulses: Vec<f64>,
+    /// What sponges had taken at the last look, eV.
+    absorbed: f64,
     measure: Measure,
     /// Whether the measure is that of the present state.
     measured: bool,
@@ -177,6 +184,7 @@ impl Solver {
         let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let interior = Interior::new(&mesh);
         let profile = ProfileLine::new(&mesh, &setting);
+        let traction = Traction::new(&mesh, &material, &profile, &setting);
         let gauges = Gauges::new(&mesh, &setting);
         let thermometer = Thermometer::new(&mesh);
         let j_integral = JIntegral::new(&mesh, material);
@@ -205,6 +213,7 @@ impl Solver {
             setting,
             interior,
             profile,
+            traction,
             gauges,
             thermometer,
             j_integral,
@@ -215,6 +224,7 @@ impl Solver {
             due_kick: None,
             grip_impulse,
             grip_impulses: Vec::new(),
+            absorbed: 0.0,
             measure,
             measured: true,
             ledger,

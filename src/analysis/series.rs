@@ -8,6 +8,8 @@ pub struct Series {
     pub profile_x: Vec<f64>,
     /// One profile a probe: `[sigma_xx, sigma_yy, sigma_xy]` in eV/nm^3 a bin; length `probes.len() * profile_x.len()`, probe-major.
     pub profiles: Vec<[f64; 3]>,
+    /// Traction x, y across the crack plane in the same bins, eV/nm^3; empty in runs of older versions.
+    pub tractions: Vec<[f64; 2]>,
     /// Where the wave gauges stand, nm from the left edge and from the crack plane.
     pub gauge_places: Vec<[f64; 2]>,
     /// Mean velocity x, y (nm/ps) and stress xx, yy, xy (eV/nm^3) of every gauge; probe-major as `profiles`.
@@ -33,7 +35,7 @@ pub struct Probe {
     /// eV; potential relative to the start of the run, kinetic in full.
     pub kinetic: f64,
     pub potential: f64,
-    /// Work of the grips since the start, eV.
+    /// Work of the grips since the start, less what sponge layers took out, eV.
     pub work: f64,
     /// Energy gained where pairs crossed the cutoff since the start, eV.
     pub cutoff_release: f64,

@@ -1,5 +1,7 @@
 //! Stress intensity factors, internal units eV/nm^2.5 (a stress in eV/nm^3 times the root of a length in nm).
 
+pub mod handbook;
+
 use std::f64::consts::PI;
 
 use super::crack::Tip;
@@ -14,7 +16,8 @@ pub const FROM_ELEMENTS: f64 = 1.0;
 /// The fit ends at this share of the crack length, the ligament or the height, whichever is smallest.
 pub const TO_SHARE: f64 = 1.0 / 3.0;
 
-/// A tip farther than this from the plane of the profile has kinked.
+/// A tip farther than this, and than an element edge, from the plane of the profile has kinked: the first edge that a
+/// coarse mesh opens may lead off the plane, and is still within what the fit and the rings leave out.
 pub const OFF_PLANE_SPACINGS: f64 = 2.0;
 
 /// Bins that a fit of two numbers with an error must have.
@@ -27,6 +30,12 @@ pub const RING_ELEMENTS: f64 = 6.0;
 
 /// How much of the distance to the nearest edge or grip the rings may take.
 pub const RING_CLEAR_SHARE: f64 = 0.9;
+
+/// Whether a tip is so near to the crack plane that the field around it is that of a crack along the plane.
+pub fn on_plane(tip: Tip, setting: &Setting) -> bool {
+    let edge = f64::from(setting.element_at_crack);
+    tip.y.abs() <= OFF_PLANE_SPACINGS.max(edge) * setting.spacing
+}
 
 /// Result of the fit `sigma_yy sqrt(2 pi r) = K (1 + c r)` ahead of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,15 +52,15 @@ pub struct NearTip {
 /// K from the profile of one probe; `None` where the range holds too few bins, and where the tip has left the plane
 /// of the profile, so that the field ahead of it is not the one measured.
 pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> Option<NearTip> {
-    if tip.y.abs() > OFF_PLANE_SPACINGS * setting.spacing {
+    if !on_plane(tip, setting) {
         return None;
     }
     let tip = tip.x;
     let from = setting.spacing * FROM_SPACINGS.max(FROM_ELEMENTS * f64::from(setting.element_at_crack));
     let to = TO_SHARE * tip.min(setting.length - tip).min(setting.height);
     let points: Vec<(f64, f64)> = ahead(series, probe, tip)
-        .filter(|(r, stress)| (from..=to).contains(r) && stress[1].is_finite())
-        .map(|(r, stress)| (r, stress[1] * (2.0 * PI * r).sqrt()))
+        .filter(|(r, stress, _)| (from..=to).contains(r) && stress[1].is_finite())
+        .map(|(r, stress, _)| (r, stress[1] * (2.0 * PI * r).sqrt()))
         .collect();
     if points.len() < LEAST_BINS {
         return None;
@@ -99,17 +108,15 @@ pub fn griffith(setting: &Setting) -> f64 {
     (setting.fracture_energy * setting.young_modulus).sqrt() / setting.thickness
 }
 
-/// The profile of one probe ahead of a tip: distance (nm) and stress xx, yy, xy (eV/nm^3) of each bin.
-pub fn ahead(series: &Series, probe: usize, tip: f64) -> impl Iterator<Item = (f64, [f64; 3])> {
+/// The profile of one probe ahead of a tip: distance (nm), stress xx, yy, xy and, where it was recorded, traction x, y
+/// (eV/nm^3) of each bin.
+pub fn ahead(series: &Series, probe: usize, tip: f64) -> impl Iterator<Item = (f64, [f64; 3], Option<[f64; 2]>)> {
     let bins = series.profile_x.len();
-    let row = series
-        .profiles
-        .get(probe * bins..(probe + 1) * bins)
-        .unwrap_or_default();
-    series
-        .profile_x
-        .iter()
-        .zip(row)
-        .map(move |(x, stress)| (x - tip, *stress))
-        .filter(|(r, _)| *r > 0.0)
+    let row = probe * bins..(probe + 1) * bins;
+    let stresses = series.profiles.get(row.clone()).unwrap_or_default();
+    let tractions = series.tractions.get(row).unwrap_or_default();
+    let places = series.profile_x.iter().zip(stresses).enumerate();
+    places
+        .map(move |(bin, (x, stress))| (x - tip, *stress, tractions.get(bin).copied()))
+        .filter(|(r, ..)| *r > 0.0)
 }

@@ -36,7 +36,18 @@ pub struct Compared {
     pub values: &'static [&'static str],
 }
 
-pub const COMPARED: [Compared; 3] = [
+impl Compared {
+    /// What a file may have of it, in words.
+    fn columns(&self) -> String {
+        let keys: String = self.keys.iter().map(|key| format!("`{}`, ", key.0)).collect();
+        match self.values {
+            [value] => format!("{keys}`{value}` of `{}`", self.table),
+            _ => format!("{keys}columns of `{}`", self.table),
+        }
+    }
+}
+
+pub const COMPARED: [Compared; 5] = [
     Compared {
         table: "summary",
         keys: &[],
@@ -67,6 +78,16 @@ pub const COMPARED: [Compared; 3] = [
             ("path", &["left face", "top and bottom faces"]),
         ],
         values: &["reference_ps"],
+    },
+    Compared {
+        table: "k_ic",
+        keys: &[],
+        values: &["k_ic_reference_mpa_sqrt_m"],
+    },
+    Compared {
+        table: "first_branch",
+        keys: &[],
+        values: &["reference_from_ps", "reference_to_ps"],
     },
     Compared {
         table: "speed_against_error",
@@ -193,23 +214,18 @@ impl Sheet<'_> {
             .iter()
             .filter(|column| COMPARED.iter().all(|table| !has(table, column)));
         let unknown: Vec<&str> = unknown.collect();
-        let [summary, waves, costs] = &COMPARED;
+        let values: Vec<&str> = COMPARED.iter().flat_map(|table| table.values).copied().collect();
         for column in &unknown {
             self.add(
                 format!("{} has a column `{column}`, which no table has", self.file),
-                suggestion(column, &[summary.values, waves.values, costs.values].concat()),
+                suggestion(column, &values),
             );
         }
         if unknown.is_empty() {
+            let columns: Vec<String> = COMPARED.iter().map(Compared::columns).collect();
             self.add(
                 format!("the columns of {} are not those of one table", self.file),
-                format!(
-                    "write columns of `{}`, of `{}`, or `wave`, `path` and {} of `{}`",
-                    summary.table,
-                    costs.table,
-                    alternatives(waves.values),
-                    waves.table
-                ),
+                format!("write {}", columns.join(", or ")),
             );
         }
         None

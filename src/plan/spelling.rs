@@ -133,12 +133,17 @@ fn load(loading: &Loading) -> Value {
         mode: Mode::I,
         rate,
         ramp,
+        sponge,
     } = *loading;
     let ramp = match ramp {
         Ramp::InitialVelocity => "initial-velocity",
         Ramp::AtRest => "at-rest",
     };
-    json!({ "strain-rate": { "mode": "I", "rate": quantity(rate, Dimension::Rate), "ramp": ramp } })
+    let mut spelled = json!({ "mode": "I", "rate": quantity(rate, Dimension::Rate), "ramp": ramp });
+    if let Some(width) = sponge {
+        spelled["sponge"] = length(width);
+    }
+    json!({ "strain-rate": spelled })
 }
 
 fn running(run: &Run) -> Value {

@@ -40,6 +40,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         open_interfaces,
         start: [start_potential, start_pairs, start_kinetic],
         grip_impulses,
+        absorbed,
         peak_work,
         peak_imbalance,
         broken_bonds,
@@ -54,6 +55,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         ("velocity_x", "nm/ps", velocity_x),
         ("velocity_y", "nm/ps", velocity_y),
         ("grip_impulses", "eV ps/nm", grip_impulses),
+        ("absorbed", "eV", absorbed),
     ] {
         put(group, name, unit, &[numbers.len()], numbers, Packing::Plain)?;
     }
@@ -108,6 +110,7 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
             get_scalar(group, "start_kinetic")?,
         ],
         grip_impulses: get(group, "grip_impulses")?,
+        absorbed: get(group, "absorbed")?,
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,
         broken_bonds: get_rows(group, "broken_bonds")?,

@@ -69,6 +69,7 @@ fn shorten(dir: &Path, piece: &SegmentPiece, step: u64) -> Result<(), RecordErro
         let kept = part.probes.partition_point(|probe| probe.step <= step);
         part.probes.truncate(kept);
         part.profiles.truncate(kept * part.profile_x.len());
+        part.tractions.truncate(kept * part.profile_x.len());
         part.bonds
             .retain(|bond| u64::from(bond.probe) < first_probe + kept as u64);
         write_segment(dir, first_probe, &part)?;

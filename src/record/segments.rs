@@ -62,6 +62,7 @@ fn append(series: &mut Series, first_probe: u64, mut part: Series) -> Result<(),
     series.gauge_places = part.gauge_places;
     append_all(&mut series.probes, &mut part.probes);
     append_all(&mut series.profiles, &mut part.profiles);
+    append_all(&mut series.tractions, &mut part.tractions);
     append_all(&mut series.gauges, &mut part.gauges);
     append_all(&mut series.bonds, &mut part.bonds);
     Ok(())

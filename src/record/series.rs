@@ -68,6 +68,7 @@ pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
         probes,
         profile_x,
         profiles,
+        tractions,
         gauge_places,
         gauges,
         bonds,
@@ -83,6 +84,15 @@ pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
         "eV/nm^3",
         &shape,
         profiles.as_flattened(),
+        Packing::Deflated,
+    )?;
+    let shape = [tractions.len() / profile_x.len().max(1), profile_x.len(), 2];
+    put(
+        &group,
+        "traction",
+        "eV/nm^3",
+        &shape,
+        tractions.as_flattened(),
         Packing::Deflated,
     )?;
 
@@ -113,6 +123,11 @@ pub(super) fn get_series(parent: &Group) -> hdf5::Result<Series> {
         probes: get_probes(&parent.group("probes")?)?,
         profile_x: get(&profiles, "x")?,
         profiles: get_rows(&profiles, "stress")?,
+        tractions: match profiles.link_exists("traction") {
+            true => get_rows(&profiles, "traction")?,
+            // Written before there were any.
+            false => Vec::new(),
+        },
         bonds: get_bonds(&parent.group("bonds")?)?,
         ..Series::default()
     };

@@ -2,8 +2,9 @@
 
 use polars::prelude::Column;
 
-use super::numbers::{ABSENT, signed_percent, significant};
+use super::numbers::{ABSENT, count, signed_percent, significant};
 use super::tables::{Rows, Table};
+use super::toughness::Definition;
 use crate::plan::{Comparison, Expected};
 
 /// Digits of a value on the page.
@@ -15,12 +16,12 @@ pub struct Line<'a> {
     source: &'a str,
     case: &'a str,
     /// Column of the tables.
-    column: &'a str,
+    pub column: &'a str,
     /// What tells it from other values of the case in that column, such as `longitudinal; left face`.
     of: Option<String>,
     /// `None` where the case has no such value.
-    measured: Option<f64>,
-    reference: f64,
+    pub measured: Option<f64>,
+    pub reference: f64,
 }
 
 impl Line<'_> {
@@ -41,15 +42,23 @@ impl Line<'_> {
         [
             self.case.to_owned(),
             quantity,
-            self.measured
-                .map_or_else(absent, |value| significant(value, SHOWN_DIGITS)),
-            significant(self.reference, SHOWN_DIGITS),
+            self.measured.map_or_else(absent, shown),
+            shown(self.reference),
             self.difference().map_or_else(absent, signed_percent),
         ]
     }
 }
 
-/// The lines of a comparison. What a wave is compared with stands beside its prediction and its measurement.
+/// Counts in full, other numbers rounded.
+fn shown(value: f64) -> String {
+    match value.fract() == 0.0 && value >= 1.0 {
+        true => count(value as u64),
+        false => significant(value, SHOWN_DIGITS),
+    }
+}
+
+/// The lines of a comparison. What is compared with several quantities (of a wave prediction and measurement, of a
+/// toughness every definition) stands beside each.
 pub fn lines<'a>(comparison: &'a Comparison, tables: &[Table]) -> Vec<Line<'a>> {
     let table = tables.iter().find(|table| table.name == comparison.table);
     let line = |expected: &'a Expected, column: &'a str| Line {
@@ -61,7 +70,9 @@ pub fn lines<'a>(comparison: &'a Comparison, tables: &[Table]) -> Vec<Line<'a>> 
         reference: expected.value,
     };
     let columns = |expected: &Expected| match expected.column {
-        "reference_ps" => vec!["predicted_ps", "measured_ps"],
+        "reference_ps" => vec!["predicted_ps", "at_running_tip_ps", "measured_ps"],
+        "reference_from_ps" | "reference_to_ps" => vec!["after_start_ps"],
+        "k_ic_reference_mpa_sqrt_m" => Definition::ALL.map(Definition::column).to_vec(),
         own => vec![own],
     };
     comparison

@@ -1,8 +1,10 @@
 //! The line charts of a report.
 
+mod arrivals;
+
 use super::Analysed;
+use super::ahead::profile_at_initiation;
 use super::chart::{Chart, Content, Curve};
-use super::tables::profile_at_initiation;
 use super::units::{GIGAPASCAL, PERCENT};
 use super::{numbers, precision};
 use crate::analysis::series::Probe;
@@ -17,9 +19,11 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
         crack_speed(cases),
         tip_position(cases),
         profile(cases),
+        traction(cases),
         imbalance(cases),
     ]);
     charts.extend(cases.iter().enumerate().map(|(index, case)| energies(index, case)));
+    charts.extend(arrivals::charts(cases));
     charts.retain_mut(|chart| match &mut chart.content {
         Content::Curves(curves) => {
             curves.retain(|curve| curve.points.iter().any(|point| point.1.is_finite()));
@@ -32,16 +36,18 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
 
 /// Whether a report may have drawn a file of this name.
 pub fn is_of_a_report(name: &str) -> bool {
-    const COMMON: [&str; 5] = [
+    const COMMON: [&str; 6] = [
         "stress-strain",
         "crack-speed",
         "tip-position",
         "stress-profile",
+        "traction-profile",
         "energy-imbalance",
     ];
     let id = name.strip_suffix(".svg").unwrap_or_default();
     COMMON.contains(&id)
         || id.starts_with("speed-against-error-")
+        || id.strip_prefix("arrivals-").is_some_and(numbers::is_index)
         || id.strip_prefix("energy-").is_some_and(numbers::is_index)
 }
 
@@ -125,10 +131,8 @@ fn tip_position(cases: &[Analysed]) -> Chart {
 
 fn profile(cases: &[Analysed]) -> Chart {
     let stress = |case: &Analysed| {
-        profile_at_initiation(case)
-            .into_iter()
-            .map(|(_, distance, stress)| (distance, stress[1] * GIGAPASCAL))
-            .collect()
+        let bins = profile_at_initiation(case).into_iter();
+        bins.map(|bin| (bin.distance, bin.stress[1] * GIGAPASCAL)).collect()
     };
     Chart {
         id: "stress-profile".to_owned(),
@@ -141,6 +145,27 @@ fn profile(cases: &[Analysed]) -> Chart {
         x: "distance ahead of the tip (nm)".to_owned(),
         y: "σyy (GPa)".to_owned(),
         content: Content::Curves(curves(cases, stress)),
+    }
+}
+
+fn traction(cases: &[Analysed]) -> Chart {
+    let traction = |case: &Analysed| {
+        let bins = profile_at_initiation(case).into_iter();
+        bins.filter_map(|bin| Some((bin.distance, bin.traction?[1] * GIGAPASCAL)))
+            .collect()
+    };
+    Chart {
+        id: "traction-profile".to_owned(),
+        detail: false,
+        table: "stress_profile",
+        title: "Traction ahead of the tip at initiation".to_owned(),
+        caption:
+            "What pulls across the crack plane itself at the same moments: the forces of the bonds that cross it, \
+                  over the area. It is a stress whatever the mesh; the virial stress is a mean over elements."
+                .to_owned(),
+        x: "distance ahead of the tip (nm)".to_owned(),
+        y: "traction (GPa)".to_owned(),
+        content: Content::Curves(curves(cases, traction)),
     }
 }
 

@@ -76,6 +76,27 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 .to_owned(),
         ),
         (
+            "K of the energy balance",
+            "√(E C H / 2) times the strain at the same probe, C being the stiffness of the uncracked slab and H its height: what \
+             the slab holds far ahead of a long crack and gives up for its advance. Exact where crack and ligament are longer \
+             than the height; a short crack has less."
+                .to_owned(),
+        ),
+        (
+            "K between grips",
+            "F E ε √(πa) at the same probe, with the factor F of an edge crack between grips that move, from the static release \
+             of energy of the lattice (`make verify`, single edge), linear between the geometries computed. Waves that the \
+             loading itself has made are not in it."
+                .to_owned(),
+        ),
+        (
+            "K under stress",
+            "F σ √(πa) with the handbook factor of an edge crack in a long strip under uniform stress (Tada), put to the stress on \
+             the grips at the same probe: what one gets who takes moving grips for a stress. Up to several times too large, \
+             because grips that stand still take load off a crack that is long for their distance."
+                .to_owned(),
+        ),
+        (
             "Branches",
             format!(
                 "Side paths of at least {SPUR_SPACINGS} spacings (and {SPUR_ELEMENTS} element edges) that end at least \
@@ -95,8 +116,8 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Waves",
             format!(
-                "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves and a \
-                 tip at rest. Measured: wave gauges halfway to the grips and halfway to the left edge record the mean \
+                "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves, to a \
+                 tip at rest and (at the running tip) to where it is by then. Measured: wave gauges halfway to the grips and halfway to the left edge record the mean \
                  velocity v and stress σ of a patch; σ ± ρcv is what a plane wave brings back towards the tip, and is \
                  untouched by what leaves it. Where it bends most, where its mean over the next {} % of the predicted \
                  time lies farthest off its line over the {} % before, the wave is at the gauge, and the way from there \

@@ -4,7 +4,7 @@ use super::chart::{Chart, Drawing};
 use super::picture::{Gallery, Picture};
 use super::summary::{self, Group};
 use super::tables::Table;
-use super::{Analysed, ReportError, Study, expected, method, numbers};
+use super::{Analysed, ReportError, Study, agreement, expected, method, numbers};
 use crate::plan::Comparison;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment, Value, context};
@@ -19,7 +19,7 @@ pub struct Page<'a> {
     pub tables: &'a [Table],
     pub charts: &'a [Chart],
     pub drawn: &'a [Drawing],
-    pub gallery: &'a Gallery,
+    pub galleries: &'a [Gallery],
 }
 
 impl Page<'_> {
@@ -50,9 +50,9 @@ impl Page<'_> {
             verdict => summary::verdict(self.cases),
             names => list(self.cases, |case| case.name().into()),
             groups => list(&summary::groups(self.cases), group),
+            agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),
-            pictures => list(&self.gallery.pictures, picture),
-            limit => numbers::tick(self.gallery.limit),
+            galleries => list(self.galleries, gallery),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
             tables => list(self.tables, table),
             cases => list(self.cases, case),
@@ -84,6 +84,10 @@ fn list<T>(items: &[T], view: impl Fn(&T) -> Value) -> Value {
 fn chart((chart, drawing): (&Chart, &Drawing)) -> Value {
     let svg = Value::from_safe_string(drawing.inline.clone());
     context! { id => &chart.id, detail => chart.detail, title => &chart.title, caption => &chart.caption, table => chart.table, svg }
+}
+
+fn gallery(gallery: &Gallery) -> Value {
+    context! { title => &gallery.title, lead => &gallery.lead, pictures => list(&gallery.pictures, picture) }
 }
 
 fn picture(picture: &Picture) -> Value {

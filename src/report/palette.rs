@@ -28,9 +28,28 @@ const STRESS: [[f64; 3]; 7] = [
 
 /// Colour of a stress between -1 (full compression) and 1 (full tension); beyond, the end colour.
 pub fn stress(share: f64) -> [u8; 3] {
-    let last = STRESS.len() - 1;
-    let place = (0.5 + 0.5 * share.clamp(-1.0, 1.0)) * last as f64;
+    blend(&STRESS, 0.5 + 0.5 * share.clamp(-1.0, 1.0))
+}
+
+/// Stops of the scale of speeds, from rest: dark, so that waves shine.
+const SPEED: [[f64; 3]; 5] = [
+    [20.0, 22.0, 34.0],
+    [38.0, 70.0, 122.0],
+    [42.0, 140.0, 150.0],
+    [158.0, 208.0, 120.0],
+    [255.0, 248.0, 190.0],
+];
+
+/// Colour of a speed between 0 and 1; beyond, the end colour.
+pub fn speed(share: f64) -> [u8; 3] {
+    blend(&SPEED, share)
+}
+
+/// Colour at a place between 0 and 1 along the stops.
+fn blend(stops: &[[f64; 3]], place: f64) -> [u8; 3] {
+    let last = stops.len() - 1;
+    let place = place.clamp(0.0, 1.0) * last as f64;
     let stop = (place as usize).min(last - 1);
     let part = place - stop as f64;
-    std::array::from_fn(|tone| (STRESS[stop][tone] * (1.0 - part) + STRESS[stop + 1][tone] * part).round() as u8)
+    std::array::from_fn(|tone| (stops[stop][tone] * (1.0 - part) + stops[stop + 1][tone] * part).round() as u8)
 }

@@ -1,7 +1,5 @@
 //! A deformed slab as pixels: elements as triangles, atoms as discs, coloured by stress.
 
-use super::palette;
-use super::units::GIGAPASCAL;
 use crate::record::frames::{FieldMesh, Frame};
 
 /// Samples a pixel in each direction, so that a million cells blend instead of flickering.
@@ -56,13 +54,13 @@ pub fn view(positions: &[[f64; 2]], margin: f64) -> Option<View> {
     (view.x[0] < view.x[1] && view.y[0] < view.y[1]).then_some(view)
 }
 
-/// Paints the slab as RGB rows from the top; `limit` is the stress (GPa) of the end colours.
+/// Paints the slab as RGB rows from the top, each cell in its colour.
 pub fn paint(
     mesh: &FieldMesh,
     frame: &Frame,
     spacing: f64,
     view: View,
-    limit: f64,
+    colours: &[[u8; 3]],
     [width, height]: [usize; 2],
 ) -> Vec<u8> {
     let mut canvas = Canvas::new(width * SAMPLES, height * SAMPLES);
@@ -76,13 +74,12 @@ pub fn paint(
         .collect();
     let radius = (ATOM * spacing * scale[0]).max(0.75);
     for (cell, ends) in mesh.offsets.windows(2).enumerate() {
-        let (Some(stress), Some(corners)) = (
-            frame.stress.get(cell),
+        let (Some(&colour), Some(corners)) = (
+            colours.get(cell),
             mesh.connectivity.get(ends[0] as usize..ends[1] as usize),
         ) else {
             continue;
         };
-        let colour = palette::stress(stress[1] * GIGAPASCAL / limit);
         match *corners {
             [atom] => canvas.disc(nodes[atom as usize], radius, colour),
             [a, b, c] => {
@@ -196,17 +193,16 @@ mod tests {
         };
         let frame = Frame {
             displacement: vec![[0.0; 2]; 6],
-            stress: vec![[0.0; 3]; 2],
             ..Frame::default()
         };
         let view = View {
             x: [1.6, 2.4],
             y: [-0.5, 0.5],
         };
-        let pixels = paint(&mesh, &frame, 1.0, view, 1.0, [40, 20]);
-        let zero = palette::stress(0.0);
+        let colour = [10, 20, 30];
+        let pixels = paint(&mesh, &frame, 1.0, view, &[colour; 2], [40, 20]);
         assert!(
-            pixels.chunks(3).all(|pixel| pixel == zero),
+            pixels.chunks(3).all(|pixel| pixel == colour),
             "a pixel between the elements is not painted"
         );
     }

@@ -1,8 +1,8 @@
 //! What a report is made from: plain values, whoever read them from where.
 
+use super::film::Film;
 use crate::analysis::series::{Series, Setting};
-use crate::plan::Comparison;
-use crate::record::frames::{FieldMesh, Frame};
+use crate::plan::{Comparison, Stages};
 
 /// A study and the results of its cases, in the order in which they are to be shown.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +13,8 @@ pub struct Study {
     pub question: Option<String>,
     /// The study file as typed.
     pub text: String,
+    /// The case to be shown through time, and at which strains.
+    pub stages: Option<Stages>,
     /// What the cases are to be compared with.
     pub comparisons: Vec<Comparison>,
     pub cases: Vec<CaseResult>,
@@ -32,7 +34,8 @@ pub struct CaseResult {
     /// `None` where the case did not come as far as its set-up.
     pub setting: Option<Setting>,
     pub series: Series,
-    pub last_frame: Option<(FieldMesh, Frame)>,
+    /// The pictures that the run took.
+    pub film: Option<Film>,
     pub manifest: Manifest,
     pub failure: Option<Failure>,
 }

@@ -5,11 +5,11 @@ use std::path::Path;
 
 use polars::prelude::*;
 
+use super::ahead::{Ahead, profile_at_initiation};
 use super::numbers::{self, round_significant};
 use super::precision::{self, Quantity};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
-use super::{Analysed, ReportError, expected};
-use crate::analysis::stress_intensity;
+use super::{Analysed, ReportError, branching, expected, toughness};
 use crate::analysis::waves::{Arrival, Face, Wave};
 use crate::plan::Comparison;
 
@@ -35,7 +35,9 @@ pub fn all(cases: &[Analysed], comparisons: &[Comparison]) -> Result<Vec<Table>,
         ("stress_profile", stress_profile(cases)),
         ("stress_strain", stress_strain(cases)),
         ("wave_arrival", wave_arrival(cases, comparisons)),
+        ("k_ic", toughness::columns(cases, comparisons)),
         ("branches", branches(cases)),
+        ("first_branch", branching::columns(cases, comparisons)),
         ("cost", cost(cases)),
     ];
     let precision = precision::rows(cases);
@@ -246,7 +248,7 @@ fn crack_speed(cases: &[Analysed]) -> Vec<Column> {
             .iter()
             .zip(&case.findings.tips)
             .zip(&case.findings.speeds);
-        rows.map(move |((probe, tip), speed)| (case, probe, tip, speed.map(|speed| speed.value)))
+        rows.map(move |((probe, tip), speed)| (case, probe, tip, *speed))
     });
     vec![
         rows.text("case", |row| &row.0.result.name),
@@ -255,9 +257,10 @@ fn crack_speed(cases: &[Analysed]) -> Vec<Column> {
         rows.number("tip_x_nm", |row| row.2.x),
         rows.number("tip_y_nm", |row| row.2.y),
         rows.number("arc_length_nm", |row| row.2.arc_length),
-        rows.number("speed_m_per_s", |row| row.3.map(|speed| speed * METRE_PER_SECOND)),
-        rows.number("speed_over_c_r", |row| {
-            row.3.and_then(|speed| Some(speed / row.0.rayleigh_speed()?))
+        rows.number("speed_m_per_s", |row| row.3.map(|speed| speed.value * METRE_PER_SECOND)),
+        rows.number("speed_over_c_r", |row| Some(row.3?.value / row.0.rayleigh_speed()?)),
+        rows.number("speed_error_m_per_s", |row| {
+            row.3.map(|speed| speed.error * METRE_PER_SECOND)
         }),
     ]
 }
@@ -266,27 +269,18 @@ fn stress_profile(cases: &[Analysed]) -> Vec<Column> {
     let rows = collect(cases, |case| {
         profile_at_initiation(case).into_iter().map(move |row| (case, row))
     });
-    let stress = |component: usize| move |row: &(&Analysed, (f64, f64, [f64; 3]))| row.1.2[component] * GIGAPASCAL;
+    let stress = |component: usize| move |row: &(&Analysed, Ahead)| row.1.stress[component] * GIGAPASCAL;
+    let traction = |axis: usize| move |row: &(&Analysed, Ahead)| Some(row.1.traction?[axis] * GIGAPASCAL);
     vec![
         rows.text("case", |row| &row.0.result.name),
-        rows.number("time_ps", |row| row.1.0),
-        rows.number("distance_nm", |row| row.1.1),
+        rows.number("time_ps", |row| row.1.time),
+        rows.number("distance_nm", |row| row.1.distance),
         rows.number("sigma_xx_gpa", stress(0)),
         rows.number("sigma_yy_gpa", stress(1)),
         rows.number("sigma_xy_gpa", stress(2)),
+        rows.number("traction_x_gpa", traction(0)),
+        rows.number("traction_y_gpa", traction(1)),
     ]
-}
-
-/// Time (ps), distance ahead of the tip (nm) and stress at the probe before initiation.
-pub fn profile_at_initiation(case: &Analysed) -> Vec<(f64, f64, [f64; 3])> {
-    let Some(probe) = case.findings.initiation.and_then(|start| start.probe.checked_sub(1)) else {
-        return Vec::new();
-    };
-    let (series, tip) = (&case.result.series, case.findings.tips[probe].x);
-    let time = series.probes[probe].time;
-    stress_intensity::ahead(series, probe, tip)
-        .map(|(distance, stress)| (time, distance, stress))
-        .collect()
 }
 
 fn stress_strain(cases: &[Analysed]) -> Vec<Column> {
@@ -311,26 +305,35 @@ fn wave_arrival(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Column> {
     let rows = collect(cases, |case| {
         case.findings.arrivals.iter().map(move |arrival| (case, arrival))
     });
-    let wave = |arrival: &Arrival| match arrival.wave {
-        Wave::Longitudinal => "longitudinal",
-        Wave::Transverse => "transverse",
-        Wave::Rayleigh => "rayleigh",
-    };
-    let path = |arrival: &Arrival| match arrival.face {
-        Face::Left => "left face",
-        Face::TopAndBottom => "top and bottom faces",
-    };
     vec![
         rows.text("case", |row| &row.0.result.name),
-        rows.text("wave", |row| wave(row.1)),
-        rows.text("path", |row| path(row.1)),
+        rows.text("wave", |row| wave_name(row.1)),
+        rows.text("path", |row| path_name(row.1)),
         rows.number("predicted_ps", |row| row.1.predicted),
         rows.number("measured_ps", |row| row.1.measured),
         rows.number("reference_ps", |row| {
-            let keys = [wave(row.1), path(row.1)];
+            let keys = [wave_name(row.1), path_name(row.1)];
             expected::value(comparisons, "wave_arrival", row.0.name(), &keys)
         }),
+        rows.number("at_running_tip_ps", |row| row.1.at_running_tip),
     ]
+}
+
+/// The word of its column.
+pub fn wave_name(arrival: &Arrival) -> &'static str {
+    match arrival.wave {
+        Wave::Longitudinal => "longitudinal",
+        Wave::Transverse => "transverse",
+        Wave::Rayleigh => "rayleigh",
+    }
+}
+
+/// The word of its column.
+pub fn path_name(arrival: &Arrival) -> &'static str {
+    match arrival.face {
+        Face::Left => "left face",
+        Face::TopAndBottom => "top and bottom faces",
+    }
 }
 
 /// The main crack has no parent; it is born at initiation, at the end of the notch.

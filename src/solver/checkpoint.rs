@@ -25,6 +25,8 @@ pub struct Checkpoint {
     pub start: [f64; 3],
     /// Impulse with which every node in the grips was pulled so far, the lower grip first, eV ps/nm.
     pub grip_impulses: Vec<f64>,
+    /// Kinetic energy that the sponges have taken from each of their elements so far, eV.
+    pub absorbed: Vec<f64>,
     /// Largest |work| and largest energy imbalance seen, eV.
     pub peak_work: f64,
     pub peak_imbalance: f64,

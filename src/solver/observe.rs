@@ -42,6 +42,7 @@ impl Solver {
         self.state.force.iter_mut().for_each(|plane| domain.gather_nodes(plane));
         self.measure.gather(domain);
         self.grip_impulses = self.grip_impulse.gathered(domain.ranks());
+        self.absorbed = self.loading.absorbed(domain.ranks()).iter().sum();
     }
 
     /// All ranks learn what only the first knows and what ends a run.
@@ -87,9 +88,11 @@ impl Solver {
         let row = self.probe_row();
         let measure = &self.measure;
         let profile = self.profile.stress(measure, &self.setting);
+        let traction = self.traction.read(self.forces.material(), &self.state);
         let reading = Reading {
             probe: &row,
             profile: &profile,
+            traction: &traction,
             gauges: &self
                 .gauges
                 .read(self.forces.mesh(), &self.state, measure, &self.setting),
@@ -124,7 +127,7 @@ impl Solver {
     fn probe_row(&mut self) -> Probe {
         let measure = &self.measure;
         let kinetic = self.state.kinetic_energy();
-        let work = self.loading.work(&self.grip_impulses);
+        let work = self.loading.work(&self.grip_impulses) - self.absorbed;
         let balance = self.ledger.balance(measure, kinetic, work);
         let [sigma_xx, sigma_yy, sigma_xy] = self.interior.average_stress(measure, &self.setting);
         let area = self.setting.length * self.setting.thickness;

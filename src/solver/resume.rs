@@ -29,6 +29,7 @@ impl Solver {
             open_interfaces: self.forces.open_interfaces(),
             start: self.ledger.start(),
             grip_impulses: self.grip_impulse.gathered(self.ranks()),
+            absorbed: self.loading.absorbed(self.ranks()),
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
             broken_bonds: self.broken.clone(),
@@ -52,6 +53,8 @@ impl Solver {
         self.forces.restore_open_interfaces(&checkpoint.open_interfaces);
         self.compute(false).map_err(|source| self.blow_up(source))?;
         self.grip_impulse.restore(&checkpoint.grip_impulses);
+        self.loading
+            .restore_absorbed(&checkpoint.absorbed, &self.forces.domain().nodes());
         self.ledger
             .restore(checkpoint.start, checkpoint.peak_work, checkpoint.peak_imbalance);
         self.broken.clone_from(&checkpoint.broken_bonds);
@@ -76,6 +79,9 @@ impl Solver {
         }
         if checkpoint.grip_impulses.len() != self.loading.held().count() {
             return Err("its grips hold another number of nodes");
+        }
+        if checkpoint.absorbed.len() != self.loading.sponge_size() {
+            return Err("its sponges have another number of elements");
         }
         let interfaces = self.forces.interface_count();
         if checkpoint

@@ -33,7 +33,9 @@ impl Solver {
         }
         let kicks = 1 + u32::from(self.due_kick.take().is_some());
         self.grip_impulse.add(&self.state, 0.5 * time_step);
-        integrator::kick_and_drift(&mut self.state, &self.forces.domain().nodes(), kicks, time_step);
+        let nodes = self.forces.domain().nodes();
+        integrator::kick_and_drift(&mut self.state, &nodes, kicks, time_step);
+        self.loading.absorb(&mut self.state, &nodes, time_step);
         self.step += 1;
         self.time += time_step;
         self.cost.book(Phase::Motion, &mut clock);
@@ -69,9 +71,12 @@ impl Solver {
         let planes = position.iter_mut().chain(velocity).chain(force);
         planes.for_each(|plane| domain.share_nodes(plane));
         let impulses = self.grip_impulse.gathered(domain.ranks());
+        let absorbed = self.loading.absorbed(domain.ranks());
         self.forces.cut_anew();
-        self.grip_impulse = Impulse::new(&self.loading, &self.forces.domain().nodes());
+        let nodes = self.forces.domain().nodes();
+        self.grip_impulse = Impulse::new(&self.loading, &nodes);
         self.grip_impulse.restore(&impulses);
+        self.loading.restore_absorbed(&absorbed, &nodes);
         // What elements hold is known to the ranks that computed them before.
         self.measured = false;
     }

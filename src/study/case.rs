@@ -133,6 +133,9 @@ pub enum Loading {
         /// Nominal strain rate, 1/ps.
         rate: f64,
         ramp: Ramp,
+        /// Width of a layer before each grip that takes waves out, nm.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        sponge: Option<f64>,
     },
 }
 

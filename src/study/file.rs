@@ -47,6 +47,17 @@ pub struct StudyFile {
 pub struct Report {
     /// Headline of the report; the name of the study where left out.
     pub title: Given<String>,
+    /// A case to be shown in pictures at strains of interest, and in motion.
+    pub stages: Given<Stages>,
+}
+
+/// The pictures nearest to these strains are shown, and all pictures one after the other.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Stages {
+    /// Name of the case.
+    pub of: Given<String>,
+    pub strains: Given<Vec<Given<Fraction>>>,
 }
 
 /// One case, or the base that all cases start from.
@@ -170,6 +181,8 @@ pub struct StrainRate {
     /// Nominal strain rate.
     pub rate: Given<Rate>,
     pub ramp: Given<Ramp>,
+    /// Width of a layer before each grip that takes waves out, so that few come back; none where left out.
+    pub sponge: Given<Length>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]

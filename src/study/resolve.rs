@@ -52,7 +52,7 @@ pub fn resolve(case: &Given<CaseFile>, name: &str, findings: &Findings) -> Optio
     let specimen = check.specimen(&case.specimen, place, spacing);
     let resolution = check.resolution(&case.resolution, place, &specimen);
     let crack = check.crack(&case.crack, &specimen);
-    let loading = check.loading(&case.loading, place);
+    let loading = check.loading(&case.loading, place, &specimen);
     let (run, until) = check.run(&case.run, place);
     if let (Some(until), Some(crack)) = (until, &crack) {
         check.stops(until, crack.as_ref(), &specimen);
@@ -186,6 +186,7 @@ fn example(path: &str, dimension: units::Dimension) -> &'static str {
         Some("cutoff" | "to") => "0.34 nm",
         Some("thickness") => "0.2087 nm",
         Some("half-width" | "radius") => "9 nm",
+        Some("sponge") => "60 nm",
         _ if path == "probes.every" => "1 ps",
         _ if path == "run.time-step" => "2 fs",
         _ if path == "crack.length" => "56 nm",

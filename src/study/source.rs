@@ -17,20 +17,34 @@ pub struct Shipped {
     pub tables: &'static [(&'static str, &'static str)],
 }
 
-pub static SHIPPED: [Shipped; 2] = [
-    Shipped {
-        name: "quickstart.yaml",
-        text: include_str!("../../studies/quickstart.yaml"),
-        tables: &[],
-    },
-    Shipped {
-        name: "speed-against-error.yaml",
-        text: include_str!("../../studies/speed-against-error.yaml"),
-        tables: &[(
-            "speed-against-error/lammps.csv",
-            include_str!("../../studies/speed-against-error/lammps.csv"),
-        )],
-    },
+/// A shipped study and the tables beside it.
+macro_rules! shipped {
+    ($name:literal $(, $table:literal)*) => {
+        Shipped {
+            name: $name,
+            text: include_str!(concat!("../../studies/", $name)),
+            tables: &[$(($table, include_str!(concat!("../../studies/", $table)))),*],
+        }
+    };
+}
+
+pub static SHIPPED: [Shipped; 9] = [
+    shipped!("quickstart.yaml"),
+    shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
+    shipped!("case-1.yaml"),
+    shipped!("case-2.yaml"),
+    shipped!(
+        "models-A-E.yaml",
+        "models-A-E/table-5-1.csv",
+        "models-A-E/strains.csv",
+        "models-A-E/table-5-2.csv",
+        "models-A-E/branching.csv",
+        "models-A-E/table-5-3.csv"
+    ),
+    shipped!("models-A-E-small.yaml"),
+    shipped!("models-A-E-mixed.yaml"),
+    shipped!("models-A-E-atoms.yaml"),
+    shipped!("branching-control.yaml"),
 ];
 
 /// Largest file that is read, in bytes; a study of a thousand cases is a hundredth of it.

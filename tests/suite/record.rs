@@ -67,6 +67,10 @@ fn series(probes: std::ops::Range<u64>, bins: u64) -> Series {
             .clone()
             .flat_map(|p| (0..bins).map(move |b| [number(p), number(b), number(p * b)]))
             .collect(),
+        tractions: probes
+            .clone()
+            .flat_map(|p| (0..bins).map(move |b| [number(p + b), number(p * b + 1)]))
+            .collect(),
         gauge_places: vec![[1.0, 2.0], [1.0, -2.0]],
         gauges: probes
             .clone()

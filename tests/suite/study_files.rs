@@ -3,6 +3,8 @@
 //! Every file of `tests/study_files/bad` begins with what is to be reported, a line a mistake, in the order of the file:
 //! `# 5:14 message` for a place, `# - message` for the file as a whole, and `#   help: …` where the help matters.
 
+mod shipped;
+
 use cgaft::{
     plan::{plan, read_case, starter, write_case},
     setup,
@@ -181,39 +183,6 @@ fn the_schema_file_is_what_the_types_say() {
 }
 
 #[test]
-fn every_study_in_the_folder_is_shipped_and_names_its_schema() {
-    let files = yaml_files("studies");
-    let names: Vec<&str> = files
-        .iter()
-        .map(|path| path.file_name().unwrap().to_str().unwrap())
-        .collect();
-    let mut shipped = study::SHIPPED.each_ref().map(|shipped| shipped.name);
-    shipped.sort();
-    assert_eq!(names, shipped);
-    for path in files {
-        let text = fs::read_to_string(&path).unwrap();
-        assert!(
-            text.starts_with("# yaml-language-server: $schema=../schemas/study.schema.json\n"),
-            "{}",
-            path.display()
-        );
-        assert!(check(&path).unwrap().question.is_some());
-    }
-}
-
-#[test]
-fn a_shipped_study_is_found_by_its_name_alone() {
-    let plan = plan(&study::read("quickstart.yaml").unwrap()).unwrap();
-    assert_eq!(plan.study, "quickstart");
-    assert_eq!(
-        plan.cases.iter().map(|case| case.name.as_str()).collect::<Vec<_>>(),
-        ["coarse", "mixed", "atoms"]
-    );
-    let message = study::read("elsewhere/quickstart.yaml").unwrap_err().to_string();
-    assert!(message.contains("no such file"), "{message}");
-}
-
-#[test]
 fn a_reference_is_for_all_that_a_sweep_makes_of_its_case() {
     let plan = check(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/study_files/good/models.yaml")).unwrap();
     let [comparison] = plan.comparisons.as_slice() else {
@@ -228,20 +197,6 @@ fn a_reference_is_for_all_that_a_sweep_makes_of_its_case() {
         .collect();
     assert_eq!(of_b, ["B-element-5", "B-element-10", "B-element-20"]);
     assert_eq!(comparison.values.len(), 9);
-}
-
-#[test]
-fn what_a_shipped_study_compares_with_is_shipped_too() {
-    for shipped in &study::SHIPPED {
-        let plan = plan(&study::read(shipped.name).unwrap()).unwrap();
-        let files: Vec<&str> = plan
-            .comparisons
-            .iter()
-            .map(|comparison| comparison.file.as_str())
-            .collect();
-        let tables: Vec<&str> = shipped.tables.iter().map(|(name, _)| *name).collect();
-        assert_eq!(files, tables, "{}", shipped.name);
-    }
 }
 
 #[test]

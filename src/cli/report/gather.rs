@@ -7,9 +7,8 @@ use serde_json::Value;
 use crate::analysis::series::{Series, Setting};
 use crate::cli::survey::{Entry, Survey};
 use crate::plan;
-use crate::record::frames::{FieldMesh, Frame};
 use crate::record::{self, FIELDS_FILE, RecordError, SERIES_FILE};
-use crate::report::{CaseResult, Failure, Manifest, Phase, Study};
+use crate::report::{CaseResult, Failure, Film, Manifest, Phase, Study};
 use crate::store::{self, Attempt, State};
 
 /// A study with the results of all its cases, also of those that failed or are missing.
@@ -19,6 +18,7 @@ pub fn gather(survey: &Survey) -> Study {
         title: survey.plan.title.clone(),
         question: survey.plan.question.clone(),
         text: survey.plan.source().to_owned(),
+        stages: survey.plan.stages.clone(),
         comparisons: survey.plan.comparisons.clone(),
         cases: survey.entries.iter().map(|entry| case_result(survey, entry)).collect(),
     }
@@ -42,10 +42,10 @@ fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
         State::Done(done) => {
             result.manifest = manifest(done);
             match read_run(&survey.store.run_folder(&entry.id)) {
-                Ok((setting, series, last_frame)) => {
+                Ok((setting, series, film)) => {
                     result.setting = Some(setting);
                     result.series = series;
-                    result.last_frame = last_frame;
+                    result.film = film;
                 }
                 Err(error) => result.failure = Some(failure(error.to_string(), "")),
             }
@@ -66,18 +66,18 @@ fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
 
 /// What a failed run has kept; that nothing can be read is no second failure.
 fn set_kept(result: &mut CaseResult, folder: &Path) {
-    if let Ok((setting, series, last_frame)) = read_run(folder) {
+    if let Ok((setting, series, film)) = read_run(folder) {
         result.setting = Some(setting);
         result.series = series;
-        result.last_frame = last_frame;
+        result.film = film;
     } else {
         // A killed solver leaves segments, which tell nothing of the specimen.
         result.series = record::read_segments(folder).unwrap_or_default();
     }
 }
 
-/// What a run has left: setting, series and, if it took pictures, the last one.
-type Run = (Setting, Series, Option<(FieldMesh, Frame)>);
+/// What a run has left: setting, series and, if it took any, pictures.
+type Run = (Setting, Series, Option<Film>);
 
 fn read_run(folder: &Path) -> Result<Run, RecordError> {
     let (setting, series) = record::read_series(&folder.join(SERIES_FILE))?;
@@ -86,11 +86,7 @@ fn read_run(folder: &Path) -> Result<Run, RecordError> {
         return Ok((setting, series, None));
     }
     let (mesh, frames) = record::read_fields(&fields)?;
-    let last = match frames.steps().len() {
-        0 => None,
-        count => Some((mesh, frames.frame(count - 1)?)),
-    };
-    Ok((setting, series, last))
+    Ok((setting, series, Some(Film::stored(mesh, frames))))
 }
 
 fn manifest(done: &store::Manifest) -> Manifest {

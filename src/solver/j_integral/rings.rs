@@ -1,7 +1,7 @@
 use crate::analysis::crack::Tip;
 use crate::analysis::series::{RINGS, Setting};
 use crate::analysis::stress_intensity::{
-    FROM_ELEMENTS, FROM_SPACINGS, OFF_PLANE_SPACINGS, RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS,
+    FROM_ELEMENTS, FROM_SPACINGS, RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS, on_plane,
 };
 use crate::mesh::Mesh;
 
@@ -29,10 +29,10 @@ impl Rings {
     /// The rings of a tip in its specimen; `None` where they would leave it or come too near to the tip, and where the
     /// tip has left the crack plane, so that the faces are no longer along x.
     pub fn around(tip: Tip, mesh: &Mesh, setting: &Setting) -> Option<Self> {
-        if tip.y.abs() > OFF_PLANE_SPACINGS * setting.spacing {
+        if !on_plane(tip, setting) {
             return None;
         }
-        let place = [setting.left_x + tip.x, mesh.middle_height() + tip.y];
+        let place = [setting.left_x + tip.x, mesh.middle_height()];
         let [low, high] = mesh.grip_edges();
         let clear = [tip.x, setting.length - tip.x, place[1] - low, high - place[1]];
         let clear = clear.into_iter().fold(f64::INFINITY, f64::min);

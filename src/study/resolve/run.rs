@@ -9,7 +9,7 @@ use crate::study::{
     defaults,
     file::{self, Interval, Observe},
     finding::{Finding, Place},
-    quantity::{Fraction, Time},
+    quantity::{Fraction, Length, Time},
     reader::Given,
 };
 use crate::units::{self, Dimension};
@@ -25,7 +25,7 @@ pub struct CrackStops {
 const MOST_STRAIN: f64 = 1.0;
 
 impl Check<'_> {
-    pub fn loading(&self, given: &Given<file::Loading>, case: Place) -> Option<Loading> {
+    pub fn loading(&self, given: &Given<file::Loading>, case: Place, specimen: &SpecimenAt) -> Option<Loading> {
         let (loading, place) = self.need(given, case, "loading", "{strain-rate: {mode: I, rate: 4.6e6 /s}}")?;
         let file::Loading::StrainRate(values) = loading;
         let mode = match &values.mode {
@@ -39,12 +39,29 @@ impl Check<'_> {
             Given::Right(file::Ramp::InitialVelocity, _) => Some(Ramp::InitialVelocity),
             Given::Right(file::Ramp::AtRest, _) => Some(Ramp::AtRest),
         };
+        let sponge = self.sponge(&values.sponge, specimen);
         let (rate, _) = self.size(&values.rate, place, "strain-rate.rate")?;
         Some(Loading::StrainRate {
             mode: mode?,
             rate,
             ramp: ramp?,
+            sponge: sponge?,
         })
+    }
+
+    /// The outer `None` is a mistake.
+    fn sponge(&self, given: &Given<Length>, specimen: &SpecimenAt) -> Option<Option<f64>> {
+        let sponge = self.size_if_given(given, "strain-rate.sponge")?;
+        if let (Some((sponge, place)), Some((width, given))) = (sponge, specimen.width)
+            && sponge >= 0.5 * width
+        {
+            let [sponge, width] = [sponge, width].map(nanometres);
+            let message = format!("two sponges of {sponge} leave nothing of a specimen of {width} for a crack");
+            let help = "make the sponges thinner or the specimen wider";
+            self.add(Finding::at(place, message).with(given, "the specimen").help(help));
+            return None;
+        }
+        Some(sponge.map(|(width, _)| width))
     }
 
     /// The run, and its stop conditions, which may be known although the whole is not.

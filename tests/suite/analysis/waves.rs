@@ -2,7 +2,7 @@
 
 use cgaft::analysis::analyse;
 use cgaft::analysis::series::{Series, Setting};
-use cgaft::analysis::waves::{Face, Wave};
+use cgaft::analysis::waves::{Arrival, Face, Wave};
 
 use super::{EXACT, findings};
 use crate::suite::synthetic::{breaks, series, setting, straight};
@@ -74,4 +74,19 @@ fn a_wave_behind_something_else_is_absent() {
         arrivals.iter().all(|arrival| arrival.measured.is_none()),
         "{arrivals:?}"
     );
+}
+
+#[test]
+fn a_wave_from_the_left_needs_longer_to_a_tip_that_runs_on() {
+    let setting = setting();
+    let findings = analyse(&waves(&setting, |_| 0.0), &setting);
+    let left = |arrival: &&Arrival| (arrival.wave, arrival.face) == (Wave::Longitudinal, Face::Left);
+    let arrival = findings.arrivals.iter().find(left).unwrap();
+    let met = arrival.at_running_tip.unwrap();
+    let start = findings.initiation.unwrap();
+    let probe = start.probe + met.round() as usize;
+    let way = findings.tips[0].x + findings.tips[probe].x;
+    // Probes are 1 ps apart.
+    assert!((met - way / setting.longitudinal_speed).abs() <= 1.0, "{arrival:?}");
+    assert!(met > arrival.predicted);
 }

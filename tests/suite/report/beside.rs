@@ -44,7 +44,7 @@ fn values_from_elsewhere_stand_beside_those_of_the_cases() {
     let folder = written(&with_comparisons());
     let table = rows(&folder, "comparison");
     let number = |row: usize, column: &str| table[row][column].parse::<f64>().unwrap();
-    assert_eq!(table.len(), 4);
+    assert_eq!(table.len(), 5);
     let own: f64 = rows(&folder, "summary")[2]["initiation_strain"].parse().unwrap();
     assert_eq!([number(0, "measured"), number(0, "reference")], [own, 0.02]);
     assert!((number(0, "relative_difference") - (own / 0.02 - 1.0)).abs() < 1e-8);

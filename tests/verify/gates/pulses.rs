@@ -78,7 +78,7 @@ fn bar_along_rows(spacing: f64) -> (Mesh, Ghosts) {
 }
 
 /// One spacing wide and 800 spacings high.
-fn bar_across_rows(spacing: f64) -> (Mesh, Ghosts) {
+pub fn bar_across_rows(spacing: f64) -> (Mesh, Ghosts) {
     let mesh = block_mesh(1, 924, 9, 1, spacing);
     let ghosts = Ghosts::new(&mesh, [1, 0], |atom| atom.column + atom.row.div_euclid(2) == 4);
     (mesh, ghosts)

@@ -1,0 +1,162 @@
+//! Where the study agrees with what it is compared with, and where not: computed sentences.
+
+use super::numbers::{signed_percent, significant};
+use super::tables::Table;
+use super::toughness::{self, Definition};
+use super::{Analysed, branching, expected};
+use crate::plan::Comparison;
+
+/// A topic and what is found.
+pub fn notes(cases: &[Analysed], comparisons: &[Comparison], tables: &[Table]) -> Vec<(&'static str, String)> {
+    if comparisons.is_empty() {
+        return Vec::new();
+    }
+    [
+        ("Counts", counts(comparisons, tables)),
+        ("Stress intensity", stress_intensity(cases, comparisons)),
+        ("First branch", first_branch(cases, comparisons)),
+        ("Waves before the first branch", waves(cases)),
+        ("Arrivals", arrivals(cases, comparisons)),
+    ]
+    .into_iter()
+    .filter_map(|(topic, text)| Some((topic, text?)))
+    .collect()
+}
+
+/// Whole numbers of nodes, elements and atoms must be the same.
+fn counts(comparisons: &[Comparison], tables: &[Table]) -> Option<String> {
+    const COUNTED: [&str; 3] = ["nodes", "elements", "represented_atoms"];
+    let lines = comparisons
+        .iter()
+        .flat_map(|comparison| expected::lines(comparison, tables));
+    let lines: Vec<_> = lines.filter(|line| COUNTED.contains(&line.column)).collect();
+    let computed: Vec<_> = lines.iter().filter(|line| line.measured.is_some()).collect();
+    let equal = computed
+        .iter()
+        .filter(|line| line.measured == Some(line.reference))
+        .count();
+    (!computed.is_empty()).then(|| {
+        format!(
+            "{equal} of {} numbers of nodes, elements and atoms are those of the source.",
+            computed.len()
+        )
+    })
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Which definition of K comes nearest to the source's values.
+fn stress_intensity(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    let offs = |definition: Definition| -> Vec<f64> {
+        let pairs = cases
+            .iter()
+            .filter_map(|case| definition.value(case).zip(toughness::reference(case, comparisons)));
+        pairs.map(|(own, other)| own / other - 1.0).collect()
+    };
+    let mut found: Vec<(Definition, Vec<f64>)> = Definition::ALL
+        .map(|definition| (definition, offs(definition)))
+        .into_iter()
+        .filter(|(_, offs)| !offs.is_empty())
+        .collect();
+    let size = |offs: &[f64]| mean(&offs.iter().map(|off| off.abs()).collect::<Vec<f64>>());
+    found.sort_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
+    let (nearest, others) = found.split_first()?;
+    let others: Vec<String> = others
+        .iter()
+        .map(|(definition, offs)| format!("{} by {}", definition.words(), signed_percent(mean(offs))))
+        .collect();
+    let mut text = format!(
+        "Nearest to the source comes {}, off by {} % on average ({} with sign).",
+        nearest.0.words(),
+        significant(100.0 * size(&nearest.1), 2),
+        signed_percent(mean(&nearest.1))
+    );
+    if !others.is_empty() {
+        text.push_str(&format!(" With sign and on average are off {}.", others.join(", ")));
+    }
+    Some(text)
+}
+
+fn first_branch(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    let line = |case: &Analysed| {
+        let [Some(from), Some(to)] = branching::reference(case, comparisons) else {
+            return None;
+        };
+        case.findings.initiation?;
+        let source = format!("the source between {from:.0} and {to:.0} ps");
+        Some(match branching::after_start(case) {
+            Some(time) => {
+                let verdict = match time {
+                    _ if time < from => "earlier than",
+                    _ if time > to => "later than",
+                    _ => "as in",
+                };
+                format!(
+                    "{}: {} ps after the crack starts, {verdict} {source}",
+                    case.name(),
+                    significant(time, 3)
+                )
+            }
+            None => format!("{}: no branch up to the end of the run; {source}", case.name()),
+        })
+    };
+    let lines: Vec<String> = cases.iter().filter_map(line).collect();
+    (!lines.is_empty()).then(|| format!("{}.", lines.join("; ")))
+}
+
+fn waves(cases: &[Analysed]) -> Option<String> {
+    let line = |case: &Analysed| {
+        branching::after_start(case)?;
+        let waves = branching::waves_before(case);
+        Some(match waves.is_empty() {
+            true => format!("{}: none", case.name()),
+            false => format!("{}: {}", case.name(), waves.join(", ")),
+        })
+    };
+    let lines: Vec<String> = cases.iter().filter_map(line).collect();
+    (!lines.is_empty()).then(|| {
+        format!(
+            "By their speeds and the path of the tip are back at it by then: {}.",
+            lines.join("; ")
+        )
+    })
+}
+
+/// How far predicted and measured arrivals are from the source's.
+fn arrivals(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    let mut offs = [const { Vec::new() }; 3];
+    for case in cases {
+        for arrival in &case.findings.arrivals {
+            let keys = [super::tables::wave_name(arrival), super::tables::path_name(arrival)];
+            let Some(reference) = expected::value(comparisons, "wave_arrival", case.name(), &keys) else {
+                continue;
+            };
+            offs[0].push(arrival.predicted / reference - 1.0);
+            offs[1].extend(arrival.at_running_tip.map(|time| time / reference - 1.0));
+            offs[2].extend(arrival.measured.map(|measured| measured / reference - 1.0));
+        }
+    }
+    let largest = |offs: &[f64]| offs.iter().fold(0.0, |largest: f64, off| largest.max(off.abs()));
+    let line = |kind: &str, offs: &[f64]| {
+        format!(
+            "{} arrivals {kind} are off the source's by {} on average, {} % at most",
+            offs.len(),
+            signed_percent(mean(offs)),
+            significant(100.0 * largest(offs), 2)
+        )
+    };
+    let kinds = [
+        "predicted at the end of the notch",
+        "predicted at the running tip",
+        "measured",
+    ]
+    .into_iter()
+    .zip(&offs);
+    let lines: Vec<String> = kinds
+        .filter(|(_, offs)| !offs.is_empty())
+        .map(|(kind, offs)| line(kind, offs))
+        .collect();
+    (!lines.is_empty()).then(|| format!("{}.", lines.join("; ")))
+}

@@ -1,0 +1,65 @@
+//! The pictures that a run took.
+
+use std::fmt;
+use std::sync::Arc;
+
+use crate::record::frames::{FieldMesh, Frame};
+use crate::record::{FrameReader, RecordError};
+
+/// A mesh and frames on it in order of time, of which a large run's are read one by one.
+#[derive(Clone)]
+pub struct Film {
+    pub mesh: FieldMesh,
+    frames: Frames,
+}
+
+#[derive(Clone)]
+enum Frames {
+    Held(Vec<Frame>),
+    Stored(Arc<FrameReader>),
+}
+
+impl Film {
+    pub fn held(mesh: FieldMesh, frames: Vec<Frame>) -> Self {
+        let frames = Frames::Held(frames);
+        Self { mesh, frames }
+    }
+
+    pub fn stored(mesh: FieldMesh, reader: FrameReader) -> Self {
+        let frames = Frames::Stored(Arc::new(reader));
+        Self { mesh, frames }
+    }
+
+    /// Time (ps) and nominal strain of every frame.
+    pub fn moments(&self) -> Vec<(f64, f64)> {
+        match &self.frames {
+            Frames::Held(frames) => frames.iter().map(|frame| (frame.time, frame.strain)).collect(),
+            Frames::Stored(reader) => reader
+                .times()
+                .iter()
+                .copied()
+                .zip(reader.strains().iter().copied())
+                .collect(),
+        }
+    }
+
+    pub fn frame(&self, index: usize) -> Result<Frame, RecordError> {
+        match &self.frames {
+            Frames::Held(frames) => Ok(frames[index].clone()),
+            Frames::Stored(reader) => reader.frame(index),
+        }
+    }
+
+    /// The frame in which something comes nearest to a value; `None` without frames.
+    pub fn nearest(&self, value: f64, of: impl Fn((f64, f64)) -> f64) -> Option<usize> {
+        let moments = self.moments();
+        let off = |index: &usize| (of(moments[*index]) - value).abs();
+        (0..moments.len()).min_by(|a, b| off(a).total_cmp(&off(b)))
+    }
+}
+
+impl fmt::Debug for Film {
+    fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        write!(f, "Film of {} frames", self.moments().len())
+    }
+}

@@ -1,0 +1,83 @@
+//! What the colour of a picture stands for.
+
+use crate::record::frames::{FieldMesh, Frame};
+use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND};
+use crate::report::{numbers, palette};
+
+/// The scale ends at this quantile, so that a few torn atoms do not darken all the rest.
+const QUANTILE: f64 = 0.995;
+
+/// A quantity of every cell.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Shade {
+    /// Virial stress across the crack plane, GPa, from minus the limit.
+    Stress,
+    /// Speed of the particles, m/s, from zero.
+    Speed,
+}
+
+impl Shade {
+    pub fn label(self) -> &'static str {
+        match self {
+            Self::Stress => "σyy (GPa)",
+            Self::Speed => "speed (m/s)",
+        }
+    }
+
+    /// Where the scale begins, as a share of its end.
+    pub fn low(self) -> f64 {
+        match self {
+            Self::Stress => -1.0,
+            Self::Speed => 0.0,
+        }
+    }
+
+    pub fn colour(self, share: f64) -> [u8; 3] {
+        match self {
+            Self::Stress => palette::stress(share),
+            Self::Speed => palette::speed(share),
+        }
+    }
+
+    pub fn colours(self, mesh: &FieldMesh, frame: &Frame, limit: f64) -> Vec<[u8; 3]> {
+        let values = self.values(mesh, frame);
+        values.into_iter().map(|value| self.colour(value / limit)).collect()
+    }
+
+    fn values(self, mesh: &FieldMesh, frame: &Frame) -> Vec<f64> {
+        match self {
+            Self::Stress => frame.stress.iter().map(|stress| stress[1] * GIGAPASCAL).collect(),
+            Self::Speed => {
+                let speed = |ends: &[u32]| {
+                    let nodes = &mesh.connectivity[ends[0] as usize..ends[1] as usize];
+                    let sum = |axis: usize| {
+                        let speeds = nodes.iter().map(|&node| frame.velocity[node as usize][axis]);
+                        speeds.sum::<f64>() / nodes.len().max(1) as f64
+                    };
+                    sum(0).hypot(sum(1)) * METRE_PER_SECOND
+                };
+                mesh.offsets.windows(2).map(speed).collect()
+            }
+        }
+    }
+
+    /// Below which all but a few cells of a frame are.
+    pub fn quantile(self, mesh: &FieldMesh, frame: &Frame) -> f64 {
+        let mut sizes: Vec<f64> = self.values(mesh, frame).into_iter().map(f64::abs).collect();
+        sizes.retain(|value| value.is_finite());
+        sizes.sort_by(f64::total_cmp);
+        let place = (QUANTILE * sizes.len().saturating_sub(1) as f64) as usize;
+        sizes.get(place).copied().unwrap_or(0.0)
+    }
+}
+
+/// The end of a scale: a simple number above the largest value.
+pub fn scale_end(top: f64) -> f64 {
+    if top <= 0.0 {
+        return 1.0;
+    }
+    let power = 10f64.powf(top.log10().floor());
+    let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
+    let step = steps.into_iter().find(|step| step * power >= top).unwrap_or(10.0);
+    numbers::round_significant(power * step, 2)
+}

@@ -1,0 +1,179 @@
+//! The traction across the crack plane: the forces of the bonds that cross it, over the area that they cross.
+
+use super::probe::ProfileLine;
+use crate::analysis::series::Setting;
+use crate::lattice::triangular;
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::state::State;
+
+/// Reference bonds this much longer than the cutoff (in spacings) may come within it while the lattice is strained.
+const BEYOND_CUTOFF: f64 = 0.3;
+
+/// The reference bonds across the crack plane by the bins of the profile. Pairs that come together where the lattice has
+/// slipped are not among them, so it holds where the lattice is whole: ahead of the tip.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Traction {
+    bins: usize,
+    /// Length of a bin along the crack times the thickness, nm^2.
+    area: f64,
+    bonds: Vec<Bond>,
+}
+
+#[derive(Clone, Debug, PartialEq)]
+struct Bond {
+    bin: u32,
+    below: Site,
+    above: Site,
+}
+
+/// A site as its nodes carry it.
+#[derive(Clone, Debug, PartialEq)]
+struct Site {
+    nodes: [u32; 3],
+    shares: [f64; 3],
+}
+
+impl Traction {
+    pub fn new(mesh: &Mesh, material: &Material, profile: &ProfileLine, setting: &Setting) -> Self {
+        let bins = profile.centres().len();
+        let width = setting.length / bins as f64;
+        let middle = mesh.sites.middle_row();
+        let plane = f64::from(middle) - 0.5;
+        let reach = material.interaction.cutoff() / material.spacing + BEYOND_CUTOFF;
+        let upward = triangular::half_vectors_within(reach)
+            .into_iter()
+            .filter(|vector| vector[1] > 0);
+        let mut bonds = Vec::new();
+        for vector in upward {
+            for row in middle - vector[1]..middle {
+                let share = (plane - f64::from(row)) / f64::from(vector[1]);
+                for column in mesh.sites.columns(row) {
+                    let [from, to] = [[column, row], [column + vector[0], row + vector[1]]];
+                    let Some((below, above)) = site(mesh, from).zip(site(mesh, to)) else {
+                        continue;
+                    };
+                    if mesh.severed(from, to) {
+                        continue;
+                    }
+                    let [left, right] = [from, to].map(|site| mesh.reference(site)[0]);
+                    let x = left + share * (right - left) - setting.left_x;
+                    let bin = ((x / width).max(0.0) as usize).min(bins - 1) as u32;
+                    bonds.push(Bond { bin, below, above });
+                }
+            }
+        }
+        Self {
+            bins,
+            area: width * setting.thickness,
+            bonds,
+        }
+    }
+
+    /// Force x, y with which what is above pulls at what is below, over the area, in every bin, eV/nm^3.
+    pub fn read(&self, material: &Material, state: &State) -> Vec<[f64; 2]> {
+        let mut sums = vec![[0.0; 2]; self.bins];
+        for bond in &self.bonds {
+            let vector = [0, 1].map(|axis| bond.above.place(state, axis) - bond.below.place(state, axis));
+            let squared = vector[0] * vector[0] + vector[1] * vector[1];
+            let slope = material.interaction.evaluate(squared).slope;
+            let sum = &mut sums[bond.bin as usize];
+            (0..2).for_each(|axis| sum[axis] += slope * vector[axis]);
+        }
+        sums.into_iter().map(|sum| sum.map(|force| force / self.area)).collect()
+    }
+}
+
+fn site(mesh: &Mesh, site: [i32; 2]) -> Option<Site> {
+    let owner = mesh.owner_of(site)?;
+    let element = &mesh.elements[owner];
+    let first = mesh.first_node(owner) as u32;
+    let last = element.node_count() as u32 - 1;
+    Some(Site {
+        nodes: [0, 1, 2].map(|node| first + last.min(node)),
+        shares: element.shape_functions(element.local(site)),
+    })
+}
+
+impl Site {
+    fn place(&self, state: &State, axis: usize) -> f64 {
+        let carried = self.nodes.iter().zip(self.shares);
+        carried
+            .map(|(&node, share)| share * state.position[axis][node as usize])
+            .sum()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::forces::Forces;
+    use crate::mesh::Plan;
+    use crate::mesh::region::{Region, Shape};
+    use crate::mesh::sites::Layout;
+    use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
+    use crate::solver::setting::setting;
+
+    /// Rounding of sums of some hundred bonds.
+    const ROUNDING: f64 = 1e-9;
+
+    /// A stretched specimen of elements with atoms along its middle, and its stress where it is even.
+    fn stretched(cutoff: f64, strain: f64) -> ([f64; 2], Vec<[f64; 2]>, Vec<f64>) {
+        let law = LennardJones {
+            epsilon: 1.0,
+            sigma: 1.0,
+        };
+        let at_cutoff = AtCutoff::Smooth { from: 0.9 * cutoff };
+        let law = CutPotential::new(law, cutoff, at_cutoff);
+        let material = Material::new(Interaction::LennardJones(law), 1.0).unwrap();
+        let mesh = Mesh::new(&Plan {
+            layout: Layout {
+                block: 5,
+                rows: 12,
+                triangles: 21,
+            },
+            element: 5,
+            regions: vec![Region {
+                shape: Shape::Band { half_width: 3.0 },
+                element: 1,
+            }],
+            crack_length: None,
+            grip_rows: 5,
+            spacing: material.spacing,
+        });
+        let loading = crate::loading::Stretching::new(&mesh, 1e-3, crate::loading::Grip::Clamped, false);
+        let setting = setting(&mesh, &material, &loading, 1.0);
+        let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
+        state.position[1].iter_mut().for_each(|y| *y *= 1.0 + strain);
+        let profile = ProfileLine::new(&mesh, &setting);
+        let traction = Traction::new(&mesh, &material, &profile, &setting);
+        let found = traction.read(&material, &state);
+        let centres = profile.centres().to_vec();
+        let mut forces = Forces::new(mesh, material);
+        forces.compute(&state.position, &mut state.force).unwrap();
+        let measure = forces.measure_computed(&state.position);
+        let stress = profile.stress(&measure, &setting);
+        let middle = stress.len() / 2;
+        ([stress[middle][2], stress[middle][1]], found, centres)
+    }
+
+    #[test]
+    fn the_traction_of_even_stretching_is_its_stress_whatever_carries_the_sites() {
+        for cutoff in [1.6, 2.5] {
+            let strain = 0.01;
+            let ([shear, stress], traction, centres) = stretched(cutoff, strain);
+            let inside = |x: &f64| (0.3..0.7).contains(&(x / centres[centres.len() - 1]));
+            let even = traction.iter().zip(&centres).filter(|(_, x)| inside(x));
+            // Bins do not hold equally many bonds: their mean does.
+            let [sum, count] = even.fold([0.0, 0.0], |[sum, count], (t, _)| [sum + t[1], count + 1.0]);
+            assert!(shear.abs() < ROUNDING);
+            // The virial over the reference area weighs bonds as they are stretched, the traction as they were.
+            let expected = stress / (1.0 + strain);
+            assert!(
+                (sum / count / expected - 1.0).abs() < 0.02,
+                "{} {expected}",
+                sum / count
+            );
+        }
+    }
+}

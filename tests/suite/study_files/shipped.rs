@@ -1,0 +1,98 @@
+//! The studies that come with the program.
+
+use std::fs;
+
+use cgaft::plan::plan;
+use cgaft::{setup, study};
+
+use super::{check, yaml_files};
+
+#[test]
+fn every_study_in_the_folder_is_shipped_and_names_its_schema() {
+    let files = yaml_files("studies");
+    let names: Vec<&str> = files
+        .iter()
+        .map(|path| path.file_name().unwrap().to_str().unwrap())
+        .collect();
+    let mut shipped = study::SHIPPED.each_ref().map(|shipped| shipped.name);
+    shipped.sort();
+    assert_eq!(names, shipped);
+    for path in files {
+        let text = fs::read_to_string(&path).unwrap();
+        assert!(
+            text.starts_with("# yaml-language-server: $schema=../schemas/study.schema.json\n"),
+            "{}",
+            path.display()
+        );
+        assert!(check(&path).unwrap().question.is_some());
+    }
+}
+
+/// Nodes, elements and atoms of the cases of a shipped study.
+fn counts(name: &str) -> Vec<(String, [u64; 3])> {
+    let plan = plan(&study::read(name).unwrap()).unwrap();
+    let mut estimator = setup::Estimator::default();
+    let mut count = |case: &cgaft::plan::PlannedCase| {
+        let estimate = estimator.estimate(&case.case).unwrap();
+        (
+            case.name.clone(),
+            [estimate.nodes, estimate.elements, estimate.represented_atoms],
+        )
+    };
+    plan.cases.iter().map(&mut count).collect()
+}
+
+#[test]
+fn the_models_have_the_nodes_elements_and_atoms_of_table_5_1() {
+    // [Deng2011] Table 5-1.
+    let table = [
+        ("A", [384_480, 128_160, 7_048_800]),
+        ("B", [384_480, 128_160, 7_048_800]),
+        ("C", [384_480, 128_160, 7_048_800]),
+        ("D", [192_480, 64_160, 3_528_800]),
+        ("E", [768_960, 256_320, 14_097_600]),
+    ];
+    let found = counts("models-A-E.yaml");
+    assert_eq!(found, table.map(|(name, counts)| (name.to_owned(), counts)));
+    for name in ["models-A-E-mixed.yaml", "models-A-E-atoms.yaml"] {
+        let atoms = counts(name).into_iter().filter(|(case, _)| case != "D2");
+        let atoms: Vec<u64> = atoms.map(|(_, [_, _, atoms])| atoms).collect();
+        assert_eq!(atoms, table.map(|(_, [_, _, atoms])| atoms), "{name}");
+    }
+}
+
+#[test]
+fn cases_1_and_2_have_the_elements_of_the_source() {
+    // [Deng2011] chapter 5: 32,060 elements and 96,180 nodes.
+    for name in ["case-1.yaml", "case-2.yaml"] {
+        let found = counts(name);
+        assert_eq!(found[0], ("elements".to_owned(), [96_180, 32_060, 1_763_300]), "{name}");
+        assert_eq!(found[1].1[2], 1_763_300, "{name}");
+    }
+}
+
+#[test]
+fn a_shipped_study_is_found_by_its_name_alone() {
+    let plan = plan(&study::read("quickstart.yaml").unwrap()).unwrap();
+    assert_eq!(plan.study, "quickstart");
+    assert_eq!(
+        plan.cases.iter().map(|case| case.name.as_str()).collect::<Vec<_>>(),
+        ["coarse", "mixed", "atoms"]
+    );
+    let message = study::read("elsewhere/quickstart.yaml").unwrap_err().to_string();
+    assert!(message.contains("no such file"), "{message}");
+}
+
+#[test]
+fn what_a_shipped_study_compares_with_is_shipped_too() {
+    for shipped in &study::SHIPPED {
+        let plan = plan(&study::read(shipped.name).unwrap()).unwrap();
+        let files: Vec<&str> = plan
+            .comparisons
+            .iter()
+            .map(|comparison| comparison.file.as_str())
+            .collect();
+        let tables: Vec<&str> = shipped.tables.iter().map(|(name, _)| *name).collect();
+        assert_eq!(files, tables, "{}", shipped.name);
+    }
+}
