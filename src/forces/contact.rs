@@ -4,6 +4,7 @@
 //! evaluated twice, and in return every sum has one fixed order. A list holds the pairs within the cutoff and a skin;
 //! those beyond the cutoff add nothing, so the moment at which a list was made leaves no trace in the result.
 
+mod grid;
 pub mod lattice;
 mod near;
 mod partners;

@@ -245,7 +245,7 @@ impl Forces {
             .filter_map(|element| self.what_is_wrong_with(element, position))
             .next();
         // All ranks tell the same error, that of the first element.
-        let told = error.map_or(u64::MAX, ForceError::to_number);
+        let told = error.map_or(u64::MAX, |error| error.number());
         match self.domain.ranks().least(told) {
             u64::MAX => Ok(()),
             number => Err(ForceError::from_number(number)),
@@ -267,10 +267,10 @@ impl Forces {
 
 impl ForceError {
     /// The first element that went wrong has the least number.
-    fn to_number(self) -> u64 {
+    fn number(&self) -> u64 {
         match self {
-            Self::FlewAway { element } => 2 * element as u64,
-            Self::Inverted { element } => 2 * element as u64 + 1,
+            Self::FlewAway { element } => 2 * *element as u64,
+            Self::Inverted { element } => 2 * *element as u64 + 1,
         }
     }
 
