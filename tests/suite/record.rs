@@ -26,6 +26,7 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         open_interfaces: vec![0, 7, u32::MAX],
         start: [number(6), number(7), number(8)],
         grip_impulses: column(50),
+        absorbed: column(60),
         peak_work: f64::INFINITY,
         peak_imbalance: number(2),
         broken_bonds: vec![[-1, 2, 0], [i32::MAX, i32::MIN, 2]],
