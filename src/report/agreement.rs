@@ -141,10 +141,10 @@ fn arrivals(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
     let largest = |offs: &[f64]| offs.iter().fold(0.0, |largest: f64, off| largest.max(off.abs()));
     let line = |kind: &str, offs: &[f64]| {
         format!(
-            "{} arrivals {kind} are off the source's by {} on average, {} % at most",
-            offs.len(),
+            "{kind}: off the source's by {} on average and {} % at most, of {}",
             signed_percent(mean(offs)),
-            significant(100.0 * largest(offs), 2)
+            significant(100.0 * largest(offs), 2),
+            offs.len()
         )
     };
     let kinds = [

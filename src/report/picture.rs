@@ -2,6 +2,7 @@
 
 pub mod animation;
 mod drawing;
+mod indexed;
 mod shade;
 
 use std::fs;

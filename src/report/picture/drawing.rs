@@ -5,6 +5,7 @@ use std::path::Path;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
+use super::indexed::Palette;
 use super::shade::Shade;
 use crate::record::frames::{FieldMesh, Frame};
 use crate::report::chart::prepare_fonts;
@@ -39,10 +40,26 @@ impl Drawing<'_> {
         let View { x, y } = self.view;
         let inner = WIDTH - EDGE - LEFT - RIGHT;
         let height = (f64::from(inner) * (y[1] - y[0]) / (x[1] - x[0])).clamp(60.0, TALLEST) as u32;
-        let root = BitMapBackend::new(path, (WIDTH, height + TOP + BOTTOM)).into_drawing_area();
+        let size = (WIDTH, height + TOP + BOTTOM);
+        let mut picture = vec![0; 3 * (size.0 * size.1) as usize];
+        self.draw_on(
+            &BitMapBackend::with_buffer(&mut picture, size).into_drawing_area(),
+            height,
+        )?;
+        let mut pictures = [Ok(picture)].into_iter();
+        Palette::of(self.shade).write(path, [size.0, size.1].map(|side| side as usize), 1, &mut pictures)?;
+        Ok(())
+    }
+
+    fn draw_on(
+        &self,
+        root: &DrawingArea<BitMapBackend, plotters::coord::Shift>,
+        height: u32,
+    ) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+        let View { x, y } = self.view;
         root.fill(&WHITE)?;
         let font = ("sans-serif", TEXT).into_font().color(&INK);
-        let mut chart = ChartBuilder::on(&root)
+        let mut chart = ChartBuilder::on(root)
             .margin_left(EDGE)
             .margin_top(TOP)
             .margin_right(RIGHT)
@@ -69,7 +86,7 @@ impl Drawing<'_> {
             .x_desc("x from the left edge (nm)")
             .y_desc("y (nm)")
             .draw()?;
-        self.draw_scale(&root, height as i32)?;
+        self.draw_scale(root, height as i32)?;
         root.present()?;
         Ok(())
     }
