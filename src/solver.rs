@@ -7,6 +7,7 @@ mod gauges;
 pub mod j_integral;
 mod ledger;
 mod observe;
+mod observer;
 mod probe;
 mod resume;
 mod schedule;
@@ -20,6 +21,7 @@ mod traction;
 pub use cost::{Cost, Phase};
 pub use error::{RunError, SolverError};
 pub use ledger::Ledger;
+pub use observer::{Moment, Observer, Progress, Reading};
 pub use probe::site_volume;
 pub use stop::{Ending, Until};
 pub use time_step::TimeStep;
@@ -29,7 +31,7 @@ use std::time::{Duration, Instant};
 
 use crate::analysis::crack::Tracker;
 use crate::analysis::initiation;
-use crate::analysis::series::{BondEvent, Probe, Setting};
+use crate::analysis::series::Setting;
 use crate::domain::{Call, Ranks};
 use crate::forces::{Forces, Measure, Summation};
 use crate::loading::{Impulse, Stretching};
@@ -37,7 +39,6 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::relaxation::{self, RelaxationError, Target};
 use crate::state::State;
-use checkpoint::Checkpoint;
 use gauges::Gauges;
 use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
@@ -63,58 +64,6 @@ pub struct Settings {
     pub checkpoint_every: Duration,
     /// What a 2D stress is divided by, nm.
     pub thickness: f64,
-}
-
-/// A moment of a run as its observers see it.
-pub struct Moment<'a> {
-    pub step: u64,
-    /// ps
-    pub time: f64,
-    /// Nominal strain.
-    pub strain: f64,
-    pub mesh: &'a Mesh,
-    pub state: &'a State,
-    pub measure: &'a Measure,
-    /// Broken bonds, ascending.
-    pub broken: &'a [[i32; 3]],
-}
-
-/// What a probe reads.
-pub struct Reading<'a> {
-    /// A row of the series.
-    pub probe: &'a Probe,
-    /// Stress xx, yy, xy along the crack plane, eV/nm^3.
-    pub profile: &'a [[f64; 3]],
-    /// Traction x, y across the crack plane in the bins of the profile, eV/nm^3.
-    pub traction: &'a [[f64; 2]],
-    /// Velocity x, y (nm/ps) and stress xx, yy, xy (eV/nm^3) of every wave gauge.
-    pub gauges: &'a [[f64; 5]],
-    /// Bonds that changed since the row before.
-    pub bonds: &'a [BondEvent],
-}
-
-/// Takes what a run gives. An error ends the run: a lost output must never go unnoticed.
-pub trait Observer {
-    type Error;
-    fn probe(&mut self, reading: &Reading) -> Result<(), Self::Error>;
-    fn snapshot(&mut self, moment: &Moment) -> Result<(), Self::Error>;
-    /// All probes and snapshots up to here must be safe before the checkpoint is.
-    /// `cost` is that of this part of the run.
-    fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), Self::Error>;
-    /// Called at every probe.
-    fn progress(&mut self, progress: &Progress);
-}
-
-/// How far a run is.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Progress {
-    pub step: u64,
-    /// Steps that the run would take if the crack did not end it.
-    pub of: u64,
-    pub time: f64,
-    pub strain: f64,
-    /// Distance of the foremost tip from the left edge, nm.
-    pub tip: Option<f64>,
 }
 
 /// One specimen in motion.
