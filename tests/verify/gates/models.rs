@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use cgaft::analysis;
+use cgaft::domain::Ranks;
 use cgaft::plan::plan;
 use cgaft::record::{SERIES_FILE, read_series};
 use cgaft::setup::run_case;
@@ -30,7 +31,8 @@ fn the_small_models_start_where_they_did() {
         assert_eq!(planned.name, name);
         let folder = tempfile::tempdir().expect("there is room");
         let (stop, mut quiet) = (AtomicBool::new(false), |_: &str| ());
-        run_case(&planned.case, folder.path(), 1, &stop, &mut |_| (), &mut quiet).expect("it runs to its end");
+        let alone = Ranks::alone();
+        run_case(&planned.case, folder.path(), alone, 1, &stop, &mut |_| (), &mut quiet).expect("it runs to its end");
         let (setting, series) = read_series(&folder.path().join(SERIES_FILE)).expect("it is published");
         let findings = analysis::analyse(&series, &setting);
         let start = findings.initiation.expect("the crack starts");

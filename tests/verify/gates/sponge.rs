@@ -50,15 +50,16 @@ fn reflection(wavelength: f64, with_sponge: bool) -> f64 {
     let mut compute = |state: &mut State| {
         ghosts.follow(state);
         forces
-            .compute(&state.position, &mut state.force)
+            .compute(&mut state.position, &mut state.force)
             .expect("the bar is sound");
     };
     compute(&mut state);
+    let nodes = state.every_node();
     while time * WAVE_SPEED < high - low {
-        kick_and_drift(&mut state, 1, TIME_STEP);
-        grips.absorb(&mut state, TIME_STEP);
+        kick_and_drift(&mut state, &nodes, 1, TIME_STEP);
+        grips.absorb(&mut state, &nodes, TIME_STEP);
         compute(&mut state);
-        kick(&mut state, 0.5 * TIME_STEP);
+        kick(&mut state, &nodes, 0.5 * TIME_STEP);
         time += TIME_STEP;
     }
     (state.kinetic_energy() / start).sqrt()
