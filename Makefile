@@ -65,8 +65,8 @@ models-A-E: build
 	mkdir -p reports/models-A-E
 	rm -rf reports/models-A-E/tables reports/models-A-E/figures
 	cp -r $(TARGET)/results/models-A-E/tables $(TARGET)/results/models-A-E/figures reports/models-A-E
-	rm -f reports/models-A-E/figures/slab-*.png reports/models-A-E/figures/energy-*.svg reports/models-A-E/tables/stress_strain.csv reports/models-A-E/tables/crack_speed.csv
-	sed '/figures\/slab-/d; /figures\/energy-/d' $(TARGET)/results/models-A-E/report.md > reports/models-A-E/report.md
+	rm -f reports/models-A-E/figures/motion.png reports/models-A-E/figures/slab-*.png reports/models-A-E/figures/energy-*.svg reports/models-A-E/tables/stress_strain.csv reports/models-A-E/tables/crack_speed.csv
+	sed '/figures\/slab-/d; /figures\/energy-/d; /figures\/motion/d; /in motion\.\*\*/d' $(TARGET)/results/models-A-E/report.md > reports/models-A-E/report.md
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \
