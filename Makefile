@@ -45,6 +45,7 @@ verify: build test-setup
 # Takes some minutes. The numbers are worth most on a machine that does nothing else.
 bench: build
 	@.ci/packages lammps
+	@mkdir -p target/mpi && cp $(TARGET)/release/cgaft-solve target/mpi/
 	$(CARGO) bench --locked --bench performance
 
 # The costs in the report are those of this machine, so LAMMPS is measured on it too.

@@ -17,18 +17,20 @@ mod performance {
     pub mod model_a;
     pub mod page;
     pub mod peer;
+    pub mod ranks;
     pub mod roofline;
     pub mod specimens;
     pub mod steps;
 }
 
-use performance::{clock, commands, demand, growth, model_a, page, peer, roofline, steps};
+use performance::{clock, commands, demand, growth, model_a, page, peer, ranks, roofline, steps};
 
 /// A part, and how it is measured.
 type Part = (&'static str, fn());
 
-const PARTS: [Part; 8] = [
+const PARTS: [Part; 9] = [
     ("steps", steps::measure),
+    ("ranks", ranks::measure),
     ("peer", peer::measure),
     ("set-up", steps::measure_set_up),
     ("growth", growth::measure),

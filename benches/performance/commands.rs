@@ -14,6 +14,10 @@ pub fn cgaft(arguments: &[&str]) -> f64 {
     let before = clock::children_seconds();
     let status = Command::new(env!("CARGO_BIN_EXE_cgaft"))
         .args(arguments)
+        .env(
+            "CGAFT_SOLVE",
+            concat!(env!("CARGO_MANIFEST_DIR"), "/target/mpi/cgaft-solve"),
+        )
         .stdout(Stdio::null())
         .status();
     assert!(status.expect("cgaft starts").success(), "cgaft {arguments:?}");

@@ -17,12 +17,13 @@ pub enum Demand {
 }
 
 /// All rows in the order of the table. A part fills in its own and leaves the others.
-const ROWS: [&str; 14] = [
+const ROWS: [&str; 15] = [
     STEP_EXACT,
     STEP_GAUSS,
     MODEL_A,
     PEER,
     THREADS,
+    RANKS,
     SET_UP,
     SET_UP_GROWTH,
     MEMORY_ATOM,
@@ -38,6 +39,7 @@ pub const STEP_GAUSS: &str = "n = 10 intact mesh, gauss 2";
 pub const MODEL_A: &str = "model A to 1.2 % strain with its crack, whole run";
 pub const PEER: &str = "all atoms, running crack, over LAMMPS lj/cut/opt";
 pub const THREADS: &str = "two threads over two runs side by side";
+pub const RANKS: &str = "two ranks over two runs side by side, 128,160 elements";
 pub const SET_UP: &str = "set-up of model A";
 pub const SET_UP_GROWTH: &str = "set-up an element, 7 million atoms over 1 million";
 pub const MEMORY_ATOM: &str = "memory an atom";

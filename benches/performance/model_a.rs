@@ -103,7 +103,7 @@ fn reachable_strain() -> f64 {
 }
 
 /// What a published run tells of itself.
-fn outcome(run: &Path) -> Value {
+pub fn outcome(run: &Path) -> Value {
     let text = fs::read_to_string(run.join("manifest.json")).expect("the run is published");
     let manifest: Value = serde_json::from_str(&text).expect("it is JSON");
     manifest["outcome"].clone()
