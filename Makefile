@@ -41,12 +41,14 @@ verify: build test-setup
 	@.ci/packages lammps
 	@.ci/packages slurm-wlm || echo 'going on without Slurm: its test is skipped'
 	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test verify
+	@CARGO=$(CARGO) .ci/solver $(TARGET)
 
 # Takes some minutes. The numbers are worth most on a machine that does nothing else.
 bench: build
 	@.ci/packages lammps
 	@mkdir -p target/mpi && cp $(TARGET)/release/cgaft-solve target/mpi/
 	$(CARGO) bench --locked --bench performance
+	@CARGO=$(CARGO) .ci/solver $(TARGET)
 
 # The costs in the report are those of this machine, so LAMMPS is measured on it too.
 speed-against-error: build

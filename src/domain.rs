@@ -40,7 +40,10 @@ pub enum DomainError {
 
 /// How many ranks an mpirun says that it has started; `None` where there is none.
 fn mpirun_ranks() -> Option<u32> {
-    let told = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE"].map(|name| std::env::var(name).ok()?.parse().ok());
+    let number = |name: &str| std::env::var(name).ok()?.parse().ok();
+    // Slurm's own launcher tells the rank by PMIx, and how many there are by a variable of its own.
+    let by_slurm = std::env::var_os("PMIX_RANK").and_then(|_| number("SLURM_STEP_NUM_TASKS"));
+    let told = [number("OMPI_COMM_WORLD_SIZE"), number("PMI_SIZE"), by_slurm];
     told.into_iter().flatten().max()
 }
 

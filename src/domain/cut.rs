@@ -1,7 +1,7 @@
 //! Where to cut.
 
-/// Starts of the parts of a sequence that all cost about the same, and its length at the end: a part ends at the item
-/// with which its share is reached, so that no part costs more than its share and half an item.
+/// Starts of the parts of a sequence that all cost about the same, and its length at the end: an item belongs to the part in
+/// which its middle lies, so that no part is farther from its share than an item.
 pub fn equal_shares(costs: impl Iterator<Item = f64> + Clone, parts: usize) -> Vec<usize> {
     let total: f64 = costs.clone().sum();
     let mut starts = vec![0];

@@ -32,6 +32,11 @@ pub enum MpiError {
         built: String,
         found: String,
     },
+    #[error(
+        "{solver} was built with {built}, and only Open MPI is started from here: run `make build` with Open MPI, or \
+         start the cases with your own mpirun, as `study plan` shows them"
+    )]
+    OnlyOpenMpi { solver: String, built: String },
 }
 
 /// What a solver says of itself.
@@ -74,14 +79,15 @@ pub fn check(solver: &Path, ranks: u32) -> Result<(), MpiError> {
     };
     let found = of_mpirun().ok_or(MpiError::NoMpirun { ranks })?;
     let is_open_mpi = |text: &str| text.contains("Open MPI") || text.contains("OpenRTE");
-    if is_open_mpi(&built) == is_open_mpi(&found) {
-        return Ok(());
+    match [is_open_mpi(&built), is_open_mpi(&found)] {
+        [true, true] => Ok(()),
+        [false, false] => Err(MpiError::OnlyOpenMpi { solver: name, built }),
+        _ => Err(MpiError::Another {
+            solver: name,
+            built,
+            found,
+        }),
     }
-    Err(MpiError::Another {
-        solver: name,
-        built,
-        found,
-    })
 }
 
 /// Refuses ranks that no machine could start. A solver that does not start here may do so where its modules are loaded.
