@@ -18,7 +18,7 @@ const STUDY: &str = include_str!("../studies/slab.yaml");
 
 /// A strain rate at which the coarse slab computes for about a minute and a half: longer than a job of a minute, which
 /// Slurm warns 15 to 45 s after its start.
-const SLOW_RATE: &str = "1.2e6 /s";
+const SLOW_RATE: &str = "5e5 /s";
 
 /// A loaded machine; nothing waits so long when all is well.
 const PATIENCE: Duration = Duration::from_secs(60);
