@@ -43,6 +43,10 @@ pub fn groups(cases: &[Analysed]) -> Vec<Group> {
             title: "How far from the case with the most nodes",
             rows: distances(cases),
         },
+        Group {
+            title: "Where the energy goes",
+            rows: energies(cases),
+        },
     ];
     groups.retain(|group| group.rows.iter().any(|row| row.cells.iter().any(|cell| cell != ABSENT)));
     groups
@@ -289,6 +293,12 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "times fewer core-seconds a simulated ps", |case| {
             or_reference(case, times_faster(case, cases))
         }),
+    ]
+}
+
+/// What of the work is neither stored nor motion.
+fn energies(cases: &[Analysed]) -> Vec<Row> {
+    vec![
         row(cases, "released at the cutoff (of the work)", |case| {
             let last = case.result.series.probes.last().filter(|last| last.work > 0.0)?;
             Some(format!(
