@@ -168,7 +168,7 @@ impl Forces {
         };
         let severed = (0..).zip(&forces.interfaces.pairs).filter(|(_, pair)| pair.severed);
         let severed: Vec<u32> = severed.map(|(number, _)| number).collect();
-        forces.watch(severed.into_iter());
+        forces.watch(&severed);
         forces
     }
 
@@ -192,7 +192,8 @@ impl Forces {
         open.iter()
             .for_each(|&number| self.states[number as usize] = State::Open);
         self.loosened.clear();
-        self.watch(open.iter().copied());
+        self.watched.clear();
+        self.watch(open);
         self.atoms.calm();
         self.contacts.forget();
     }
@@ -224,39 +225,38 @@ impl Forces {
         self.states[interface] == State::Open
     }
 
-    /// Finds out which interfaces must be tested in every step: those of triangles with an open interface. What follows from
-    /// regular bonds ends where a crack begins.
-    fn watch(&mut self, changed: impl Iterator<Item = u32>) {
-        self.loosened.extend(changed);
-        self.loosened.sort_unstable();
-        self.loosened.dedup();
-        let open = self
-            .loosened
-            .iter()
-            .map(|&number| number as usize)
-            .filter(|&number| self.is_open(number));
-        let beside = open.flat_map(|number| {
-            [
-                self.interfaces.pairs[number].first,
-                self.interfaces.pairs[number].second,
-            ]
-        });
-        let of_those = beside
-            .flat_map(|triangle| self.interfaces.of(triangle as usize))
-            .copied();
-        let triangles = self.domain.triangles();
-        let is_mine = |number: usize| {
-            let pair = self.interfaces.pairs[number];
-            [pair.first, pair.second]
-                .iter()
-                .any(|&triangle| triangles.contains(&(triangle as usize)))
-        };
-        let is_watched = |&number: &u32| !self.is_open(number as usize) && is_mine(number as usize);
-        let mut watched: Vec<u32> = of_those.filter(is_watched).collect();
-        watched.sort_unstable();
-        watched.dedup();
+    /// Takes note of interfaces that have changed, and of those that must be tested in every step from now on: those of
+    /// triangles with an open interface. What follows from regular bonds ends where a crack begins.
+    fn watch(&mut self, changed: &[u32]) {
+        let open = changed.iter().filter(|&&number| self.is_open(number as usize));
+        let beside = open.flat_map(|&number| self.interfaces.pairs[number as usize].both());
+        let of_those = beside.flat_map(|triangle| self.interfaces.of(triangle as usize));
+        let newly_watched: Vec<u32> = of_those
+            .copied()
+            .filter(|&number| self.is_mine(number as usize))
+            .collect();
+        let mut watched = std::mem::take(&mut self.watched);
+        include(&mut watched, newly_watched);
+        watched.retain(|&number| !self.is_open(number as usize));
         self.watched = watched;
+        include(&mut self.loosened, changed.to_vec());
     }
+
+    /// Whether an interface is one of my triangles'.
+    fn is_mine(&self, interface: usize) -> bool {
+        let triangles = self.domain.triangles();
+        let both = self.interfaces.pairs[interface].both();
+        both.iter().any(|&triangle| triangles.contains(&(triangle as usize)))
+    }
+}
+
+/// Adds numbers to ascending ones, which few of them mostly are not among.
+fn include(ascending: &mut Vec<u32>, mut more: Vec<u32>) {
+    more.sort_unstable();
+    ascending.extend(more);
+    // Takes two ascending runs as they are.
+    ascending.sort();
+    ascending.dedup();
 }
 
 #[cfg(test)]

@@ -45,7 +45,8 @@ impl Forces {
         self.tiles = tile::tiles(&self.mesh, &self.interfaces, &self.strings, self.domain.triangles());
         self.bordering = bordering(&self.domain, &self.mesh, &self.interfaces, &self.atoms);
         self.halo = Halo::ask(&self.domain, &self.bordering);
-        self.watch(std::iter::empty());
+        self.watched.clear();
+        self.watch(&self.loosened.clone());
         self.contacts.forget();
     }
 }
@@ -74,7 +75,7 @@ pub fn bordering(domain: &Domain, mesh: &Mesh, interfaces: &Interfaces, atoms: &
     for triangle in triangles.clone() {
         for &number in interfaces.of(triangle) {
             let pair = interfaces.pairs[number as usize];
-            let others = [pair.first, pair.second].into_iter();
+            let others = pair.both().into_iter();
             found.extend(others.filter(|&other| !triangles.contains(&(other as usize))));
         }
     }

@@ -206,7 +206,8 @@ impl Forces {
                 }
             }
         }
-        self.watch(changed.iter().map(|&[number, _]| number));
+        let changed: Vec<u32> = changed.iter().map(|&[number, _]| number).collect();
+        self.watch(&changed);
         self.contacts.forget();
         touched
     }
@@ -216,7 +217,6 @@ impl Forces {
         let start = Instant::now();
         position.iter_mut().for_each(|axis| self.domain.share_nodes(axis));
         let shared = Instant::now();
-        self.check_sound(position)?;
         let field = contact::Field {
             mesh: &self.mesh,
             domain: &self.domain,
@@ -225,7 +225,9 @@ impl Forces {
             loosened: &self.loosened,
             summation: self.summation,
         };
-        self.contacts = contact::Contacts::search(&field, &mut self.atoms, &self.material, position);
+        let triangles = field.searched();
+        self.check_sound(&triangles, position)?;
+        self.contacts = contact::Contacts::search(&field, &triangles, &mut self.atoms, &self.material, position);
         let mut needed = [&self.bordering[..], self.contacts.needed()].concat();
         needed.sort_unstable();
         needed.dedup();
@@ -238,12 +240,16 @@ impl Forces {
         Ok(())
     }
 
-    /// Refuses positions that are no numbers or far away, and triangles that are inside out.
-    fn check_sound(&self, position: &Planes) -> Result<(), ForceError> {
-        let mine = self.domain.elements().into_iter().flatten();
+    /// Refuses positions that are no numbers or far away, and triangles that are inside out, among atoms and these triangles;
+    /// what the others' interfaces stand for is as in the lattice.
+    fn check_sound(&self, triangles: &[u32], position: &Planes) -> Result<(), ForceError> {
+        let [mine, atoms] = self.domain.elements();
+        let triangles = triangles.par_iter().map(|&triangle| triangle as usize);
+        let mine = triangles.filter(|triangle| mine.contains(triangle));
         let error = mine
+            .chain(atoms)
             .filter_map(|element| self.what_is_wrong_with(element, position))
-            .next();
+            .find_first(|_| true);
         // All ranks tell the same error, that of the first element.
         let told = error.map_or(u64::MAX, |error| error.number());
         match self.domain.ranks().least(told) {

@@ -57,7 +57,7 @@ pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, min
         if !strings.are_there(pair.kind) {
             continue;
         }
-        let [one, other] = [pair.first, pair.second].map(tile_of);
+        let [one, other] = pair.both().map(tile_of);
         let mut entry = Run {
             kind: pair.kind,
             first: pair.first,

@@ -54,6 +54,13 @@ pub struct Interface {
     pub severed: bool,
 }
 
+impl Interface {
+    /// Its two triangles.
+    pub fn both(&self) -> [u32; 2] {
+        [self.first, self.second]
+    }
+}
+
 /// Every pair of triangles with sites no farther apart than a reach, and what each triangle touches.
 #[derive(Clone, Debug, Default)]
 pub struct Interfaces {
@@ -294,7 +301,7 @@ mod tests {
             let interfaces = Interfaces::new(&mesh, 2.4);
             let mut listed = 0;
             for (number, pair) in interfaces.pairs.iter().enumerate() {
-                let [first, second] = [pair.first, pair.second].map(|e| mesh.elements[e as usize]);
+                let [first, second] = pair.both().map(|e| mesh.elements[e as usize]);
                 for string in interfaces.strings(number) {
                     for t in 0..string.count {
                         let [a, b] = string.ends(t);
@@ -346,7 +353,9 @@ mod tests {
         let severed = interfaces.pairs.iter().filter(|pair| pair.severed).count();
         assert!(severed > 4 && severed < interfaces.pairs.len() / 4);
         let across = |pair: &Interface| {
-            let rows = [pair.first, pair.second].map(|e| mesh.elements[e as usize].row < mesh.cut.unwrap().row);
+            let rows = pair
+                .both()
+                .map(|e| mesh.elements[e as usize].row < mesh.cut.unwrap().row);
             rows[0] != rows[1]
         };
         assert!(interfaces.pairs.iter().filter(|pair| pair.severed).all(across));

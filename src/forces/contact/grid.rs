@@ -38,15 +38,15 @@ impl Grid {
             .iter()
             .map(|&place| grid.number(grid.cell_of(place)) as u32)
             .collect();
-        cells.iter().for_each(|&cell| grid.start[cell as usize + 1] += 1);
-        for cell in 0..size[0] * size[1] {
-            grid.start[cell + 1] += grid.start[cell];
+        // Where each cell ends, and then, from the last point back to the first, where it starts.
+        cells.iter().for_each(|&cell| grid.start[cell as usize] += 1);
+        for cell in 1..grid.start.len() {
+            grid.start[cell] += grid.start[cell - 1];
         }
-        let mut next = grid.start.clone();
         grid.points = vec![0; position.len()];
-        for (point, &cell) in cells.iter().enumerate() {
-            grid.points[next[cell as usize] as usize] = point as u32;
-            next[cell as usize] += 1;
+        for (point, &cell) in cells.iter().enumerate().rev() {
+            grid.start[cell as usize] -= 1;
+            grid.points[grid.start[cell as usize] as usize] = point as u32;
         }
         grid
     }

@@ -56,7 +56,7 @@ fn has_strip_along_an_edge(own: &Corners, others: &Corners, distance: f64) -> bo
             .map(|&point| outward * side(point))
             .fold(f64::INFINITY, f64::min);
         // An edge without length separates nothing.
-        nearest > distance * edge[0].hypot(edge[1])
+        nearest > distance * (edge[0] * edge[0] + edge[1] * edge[1]).sqrt()
     })
 }
 

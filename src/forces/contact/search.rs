@@ -29,16 +29,15 @@ pub struct Field<'a> {
 
 impl Field<'_> {
     /// Triangles that may meet something other than their intact neighbours, ascending.
-    fn searched(&self) -> Vec<u32> {
-        let pairs = self
-            .loosened
-            .iter()
-            .map(|&number| &self.interfaces.pairs[number as usize]);
-        let beside = pairs.flat_map(|pair| [pair.first, pair.second]);
-        let mut searched: Vec<u32> = self.interfaces.exposed.iter().copied().chain(beside).collect();
-        searched.sort_unstable();
-        searched.dedup();
-        searched
+    pub fn searched(&self) -> Vec<u32> {
+        let loosened = self.loosened.iter().map(|&number| number as usize);
+        let beside = loosened.flat_map(|number| self.interfaces.pairs[number].both());
+        let mut is_searched = vec![false; self.mesh.triangles];
+        for triangle in self.interfaces.exposed.iter().copied().chain(beside) {
+            is_searched[triangle as usize] = true;
+        }
+        let numbers = 0..self.mesh.triangles as u32;
+        numbers.filter(|&triangle| is_searched[triangle as usize]).collect()
     }
 
     /// Those of some triangles that may come within a distance of other triangles to which no intact interface joins them,
@@ -52,10 +51,10 @@ impl Field<'_> {
         let centre = |[a, b, c]: &Corners| [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0);
         let centres: Vec<[f64; 2]> = corners.iter().map(centre).collect();
         let reach = |(corners, centre): (&Corners, &[f64; 2])| {
-            let from_centre = corners
+            let squared = corners
                 .iter()
-                .map(|corner| (corner[0] - centre[0]).hypot(corner[1] - centre[1]));
-            from_centre.fold(0.0, f64::max)
+                .map(|corner| (corner[0] - centre[0]).powi(2) + (corner[1] - centre[1]).powi(2));
+            squared.fold(0.0, f64::max).sqrt()
         };
         let farthest = corners.iter().zip(&centres).map(reach).fold(0.0, f64::max);
         let grid = Grid::new(&centres, 2.0 * farthest + distance);
@@ -113,13 +112,19 @@ struct Candidates {
 type Lists = Vec<(Vec<u32>, Vec<Partner>)>;
 
 impl Contacts {
-    /// Lists the partners of every site at these positions.
-    pub fn search(field: &Field, lattice: &mut AtomLattice, material: &Material, position: &Planes) -> Self {
+    /// Lists the partners of every site of the triangles to be [searched](Field::searched), and of every atom, at these
+    /// positions.
+    pub fn search(
+        field: &Field,
+        triangles: &[u32],
+        lattice: &mut AtomLattice,
+        material: &Material,
+        position: &Planes,
+    ) -> Self {
         let skin = Self::SKIN * material.spacing;
         let radius = material.interaction.cutoff() + skin;
-        let triangles = field.searched();
         let atoms = lattice.surroundings(field.mesh, position);
-        let meeting = field.meeting(&triangles, &atoms.candidates, radius, position);
+        let meeting = field.meeting(triangles, &atoms.candidates, radius, position);
         let candidates = Candidates::new(field.mesh, &meeting, radius, &atoms.candidates, position);
         let grid = Grid::new(&candidates.position, radius);
         let lists = candidates.partner_lists(field, lattice, &atoms, &grid, radius);
