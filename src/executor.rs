@@ -3,6 +3,7 @@
 //! Making a command ([`launch`]) and starting it ([`local`]) are separate, so that `cgaft study plan` can show it.
 //! [`slurm`] starts jobs that do the same on another machine.
 
+pub mod errand;
 pub mod exit;
 pub mod launch;
 mod local;
@@ -14,9 +15,10 @@ pub mod share;
 pub mod slurm;
 pub mod stop;
 
+pub use errand::{Ending, Errand, Job, Watcher};
 pub use launch::Launch;
 pub use progress::Progress;
-pub use queue::{Ending, Job, Settings, Watcher, run};
+pub use queue::{Settings, run};
 pub use stop::Stop;
 
 use std::io;

@@ -11,7 +11,7 @@ use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
 use super::{CliError, cluster, format, plan, report};
 use crate::executor::share::{Crew, Demand, Share, share};
-use crate::executor::{self, Ending, ExecutorError, Job, Settings, Stop, exit, launch, mpi, slurm};
+use crate::executor::{self, Ending, Errand, ExecutorError, Job, Settings, Stop, exit, launch, mpi, slurm};
 use crate::plan as planning;
 use crate::setup::Estimate;
 use crate::store::State;
@@ -234,7 +234,7 @@ fn compute(
             .unwrap_or(1)
     };
     let mut watcher = progress::watcher(terminal, store);
-    let watcher = watcher.as_mut();
+    let errand = Errand::new(store, jobs, watcher.as_mut());
     Ok(match arguments.on {
         On::Local => {
             mpi::check(&solver, most_ranks(None)).map_err(ExecutorError::from)?;
@@ -244,7 +244,7 @@ fn compute(
                 share: prepared.share,
                 slurm_job: None,
             };
-            stop.with_care(|| executor::run(store, jobs, &settings, stop, watcher))?
+            stop.with_care(|| executor::run(errand, &settings, stop))?
         }
         On::Slurm => {
             let setting = cluster::setting(survey, arguments)?;
@@ -255,7 +255,7 @@ fn compute(
                 setting,
                 detach: arguments.detach,
             };
-            stop.with_care(|| slurm::run(store, jobs, &settings, stop, watcher))?
+            stop.with_care(|| slurm::run(errand, &settings, stop))?
         }
     })
 }

@@ -7,43 +7,12 @@ use std::sync::mpsc::{self, Receiver, Sender};
 use std::time::{Duration, Instant};
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
 use super::exit::{self, Ended};
 use super::local::{self, Event, Running};
-use super::share::{Crew, Demand, Share};
-use super::{ExecutorError, Progress, Stop, launch, mpi};
-use crate::store::{Attempt, Claim, Failure, Manifest, Program, Reached, State, Store, StoreError};
-
-/// A case to compute.
-#[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Job {
-    pub name: String,
-    /// Identity of the case: names its run.
-    pub id: String,
-    /// Content of the case file that the solver reads.
-    pub case_text: String,
-    /// The case for the manifest.
-    pub case: serde_json::Value,
-    /// Estimated time on one core, s.
-    pub seconds: f64,
-    /// Where the user or the study says how many; else one.
-    pub ranks: Option<u32>,
-    /// Where the user or the study says how many; else all jobs have the same.
-    pub threads: Option<u32>,
-    /// Since when it is wanted afresh: what was begun before counts for nothing. `None`: whatever there is serves.
-    pub fresh: Option<Timestamp>,
-}
-
-impl Job {
-    pub fn demand(&self) -> Demand {
-        Demand {
-            seconds: self.seconds,
-            ranks: self.ranks.unwrap_or(1),
-            threads: self.threads,
-        }
-    }
-}
+use super::share::{Crew, Share};
+use super::{Ending, Errand, ExecutorError, Progress, Stop, launch, mpi};
+use crate::store::{Claim, Program, Reached, State, StoreError};
 
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -53,46 +22,9 @@ pub struct Settings {
     pub slurm_job: Option<String>,
 }
 
-/// How a case ended.
-#[derive(Clone, Debug)]
-pub enum Ending {
-    Done(Box<Manifest>),
-    /// Another process has computed it meanwhile.
-    DoneElsewhere(Box<Manifest>),
-    Failed(Box<Failure>),
-    /// It has stopped on request and goes on from its last checkpoint next time.
-    Interrupted(Option<Attempt>),
-    /// The request to stop came before its turn.
-    NotStarted,
-    /// It waits or runs as this job of a scheduler, and nobody waits for it here.
-    HandedOver(String),
-}
-
-/// Is told what happens.
-pub trait Watcher {
-    /// A scheduler has taken it, under this id.
-    fn submitted(&mut self, job: &Job, id: &str);
-    /// It waits in the queue of a scheduler, which says why.
-    fn queued(&mut self, job: &Job, why: &str);
-    fn started(&mut self, job: &Job);
-    fn progress(&mut self, job: &Job, progress: &Progress);
-    /// How far a case is that runs elsewhere.
-    fn reached(&mut self, job: &Job, reached: &Reached);
-    /// Another process works on it.
-    fn waiting(&mut self, job: &Job);
-    fn stopping(&mut self);
-    fn ended(&mut self, job: &Job, ending: &Ending);
-}
-
 /// Computes all jobs; the endings are in the order of the jobs.
-pub fn run(
-    store: &Store,
-    jobs: &[Job],
-    settings: &Settings,
-    stop: &Stop,
-    watcher: &mut dyn Watcher,
-) -> Result<Vec<Ending>, ExecutorError> {
-    let mut queue = Queue::new(store, jobs, settings, watcher);
+pub fn run<'a>(errand: Errand<'a>, settings: &'a Settings, stop: &Stop) -> Result<Vec<Ending>, ExecutorError> {
+    let mut queue = Queue::new(errand, settings);
     let mut told = false;
     loop {
         if stop.requested() && !told {
@@ -107,7 +39,7 @@ pub fn run(
         }
         queue.collect(stop.requested())?;
         if queue.running.is_empty() && (stop.requested() || queue.waiting.is_empty()) {
-            return Ok(queue.endings);
+            return Ok(queue.errand.endings);
         }
         if let Ok(Event::Progress(job, progress)) = queue.listen.recv_timeout(POLL) {
             queue.progress(job, &progress)?;
@@ -123,16 +55,11 @@ const NOTE_EVERY: Duration = Duration::from_secs(2);
 const LOG_TAIL: usize = 20;
 
 struct Queue<'a> {
-    store: &'a Store,
-    jobs: &'a [Job],
+    errand: Errand<'a>,
     settings: &'a Settings,
-    watcher: &'a mut dyn Watcher,
     /// Still to be started, the longest last.
     waiting: Vec<usize>,
     running: Vec<Work>,
-    endings: Vec<Ending>,
-    /// Those of which the watcher knows that another process has them.
-    told_busy: Vec<bool>,
     speak: Sender<Event>,
     listen: Receiver<Event>,
 }
@@ -148,20 +75,16 @@ struct Work {
 }
 
 impl<'a> Queue<'a> {
-    fn new(store: &'a Store, jobs: &'a [Job], settings: &'a Settings, watcher: &'a mut dyn Watcher) -> Self {
+    fn new(errand: Errand<'a>, settings: &'a Settings) -> Self {
         let (speak, listen) = mpsc::channel();
-        let mut waiting: Vec<usize> = (0..jobs.len()).collect();
-        let duration = |job: usize| settings.share.duration(&jobs[job].demand());
+        let mut waiting: Vec<usize> = (0..errand.jobs.len()).collect();
+        let duration = |job: usize| settings.share.duration(&errand.jobs[job].demand());
         waiting.sort_by(|&a, &b| duration(a).total_cmp(&duration(b)).then(b.cmp(&a)));
         Queue {
-            store,
-            jobs,
+            errand,
             settings,
-            watcher,
             waiting,
             running: Vec::new(),
-            endings: vec![Ending::NotStarted; jobs.len()],
-            told_busy: vec![false; jobs.len()],
             speak,
             listen,
         }
@@ -174,27 +97,26 @@ impl<'a> Queue<'a> {
             if !self.settings.share.has_room(&at_work, self.crew(job)) {
                 return Ok(());
             }
-            if let Some(claim) = self.store.claim(&self.jobs[job].id)? {
+            if let Some(claim) = self.errand.store.claim(&self.errand.jobs[job].id)? {
                 self.waiting.retain(|&other| other != job);
                 self.start_or_skip(job, claim)?;
-            } else if !self.told_busy[job] {
-                self.told_busy[job] = true;
-                self.watcher.waiting(&self.jobs[job]);
+            } else {
+                self.errand.tell_busy(job);
             }
         }
         Ok(())
     }
 
     fn crew(&self, job: usize) -> Crew {
-        self.settings.share.crew(&self.jobs[job].demand())
+        self.settings.share.crew(&self.errand.jobs[job].demand())
     }
 
     fn start_or_skip(&mut self, number: usize, mut claim: Claim) -> Result<(), ExecutorError> {
-        let job = &self.jobs[number];
+        let job = &self.errand.jobs[number];
         let state = claim.state();
         match state {
             State::Done(manifest) if job.fresh.is_none_or(|since| manifest.ended >= since) => {
-                self.end(number, Ending::DoneElsewhere(manifest));
+                self.errand.end(number, Ending::DoneElsewhere(manifest));
                 return Ok(());
             }
             _ => {
@@ -212,7 +134,7 @@ impl<'a> Queue<'a> {
         }
         let log = open_log(&folder, &command)?;
         let process = local::start(number, &command, log, self.speak.clone())?;
-        self.watcher.started(job);
+        self.errand.watcher.started(job);
         self.running.push(Work {
             job: number,
             process,
@@ -237,7 +159,7 @@ impl<'a> Queue<'a> {
             work.noted = Instant::now();
             work.claim.note(work.reached)?;
         }
-        self.watcher.progress(&self.jobs[job], progress);
+        self.errand.watcher.progress(&self.errand.jobs[job], progress);
         Ok(())
     }
 
@@ -252,14 +174,14 @@ impl<'a> Queue<'a> {
                 let work = self.running.remove(position);
                 let job = work.job;
                 let ending = self.ending_of(work, status, stopping)?;
-                self.end(job, ending);
+                self.errand.end(job, ending);
             }
         }
         Ok(())
     }
 
     fn ending_of(&self, mut work: Work, status: ExitStatus, stopping: bool) -> Result<Ending, ExecutorError> {
-        let job = &self.jobs[work.job];
+        let job = &self.errand.jobs[work.job];
         let tail = tail_of(&work.claim.folder().join("log.txt"));
         let several = work.crew.ranks > 1;
         let ended = if several {
@@ -278,7 +200,7 @@ impl<'a> Queue<'a> {
             let manifest = work
                 .claim
                 .publish(outcome, &job.name, &job.case, ranks, threads, slurm_job)?;
-            self.store.link(&job.name, &job.id)?;
+            self.errand.store.link(&job.name, &job.id)?;
             return Ok(Ending::Done(Box::new(manifest)));
         }
         let meaning = if status.success() {
@@ -295,13 +217,8 @@ impl<'a> Queue<'a> {
         )?)))
     }
 
-    fn end(&mut self, job: usize, ending: Ending) {
-        self.watcher.ended(&self.jobs[job], &ending);
-        self.endings[job] = ending;
-    }
-
     fn interrupt(&mut self) {
-        self.watcher.stopping();
+        self.errand.watcher.stopping();
         self.running.iter_mut().for_each(|work| work.process.interrupt());
     }
 }

@@ -4,7 +4,7 @@ use std::thread;
 use std::time::{Duration, Instant};
 
 use cgaft::executor::share::Share;
-use cgaft::executor::{self, Ending, Job, Progress, Settings, Stop, Watcher};
+use cgaft::executor::{self, Ending, Errand, Job, Progress, Settings, Stop, Watcher};
 use cgaft::store::{Reached, State, Store};
 use jiff::Timestamp;
 use serde_json::json;
@@ -107,7 +107,12 @@ fn word(ending: &Ending) -> &'static str {
 
 fn run(store: &Store, jobs: &[Job], at_once: usize) -> (Vec<Ending>, Vec<String>) {
     let mut notes = Notes::default();
-    let endings = executor::run(store, jobs, &settings(at_once), &Stop::default(), &mut notes).unwrap();
+    let endings = executor::run(
+        Errand::new(store, jobs, &mut notes),
+        &settings(at_once),
+        &Stop::default(),
+    )
+    .unwrap();
     (endings, notes.events)
 }
 
@@ -212,7 +217,7 @@ fn a_request_to_stop_reaches_the_solver_which_leaves_a_checkpoint() {
     };
     let cases = [job("A", "slow"), job("B", "well")];
     let start = Instant::now();
-    let endings = executor::run(&store, &cases, &settings(1), &stop, &mut notes).unwrap();
+    let endings = executor::run(Errand::new(&store, &cases, &mut notes), &settings(1), &stop).unwrap();
     assert!(start.elapsed() < PATIENCE);
     assert_eq!(words(&endings), ["interrupted", "not started"]);
     assert_eq!(notes.events, ["A started", "A 40 %", "stopping", "A interrupted"]);
@@ -257,12 +262,7 @@ fn a_solver_that_cannot_be_started_is_an_error_with_its_name() {
         solver: PathBuf::from("no-such-solver"),
         ..settings(1)
     };
-    let failed = executor::run(
-        &store,
-        &[job("A", "well")],
-        &settings,
-        &Stop::default(),
-        &mut Notes::default(),
-    );
+    let (jobs, mut notes) = ([job("A", "well")], Notes::default());
+    let failed = executor::run(Errand::new(&store, &jobs, &mut notes), &settings, &Stop::default());
     assert!(failed.unwrap_err().to_string().contains("no-such-solver"));
 }

@@ -11,7 +11,7 @@ use signal_hook::iterator::Signals;
 use super::{Ticket, commands};
 use crate::executor::queue::{self, Settings};
 use crate::executor::share::Share;
-use crate::executor::{Ending, ExecutorError, Stop, Watcher, launch, mpi};
+use crate::executor::{Ending, Errand, ExecutorError, Stop, Watcher, launch, mpi};
 use crate::store::{Attempt, Store};
 
 /// What Slurm tells a job by signals.
@@ -66,8 +66,8 @@ pub fn carry_out(
         },
         slurm_job: own_id(),
     };
-    let mut endings = queue::run(store, std::slice::from_ref(&ticket.job), &settings, &bell.stop, watcher)?;
-    let ending = endings.pop();
+    let errand = Errand::new(store, std::slice::from_ref(&ticket.job), watcher);
+    let ending = queue::run(errand, &settings, &bell.stop)?.pop();
     let slurm_id = own_id().filter(|_| bell.time_up.load(Ordering::SeqCst));
     let (Some(Ending::Interrupted(attempt)), Some(slurm_id)) = (&ending, slurm_id) else {
         return Ok(ending);

@@ -11,7 +11,7 @@ use super::script::{Setting, scripts};
 use super::{Ticket, ending, job_name, ticket};
 use crate::executor::queue::{starts_over, tail_of};
 use crate::executor::share::Crew;
-use crate::executor::{Ending, ExecutorError, Job, Stop, Watcher};
+use crate::executor::{Ending, Errand, ExecutorError, Job, Stop};
 use crate::store::{State, Store};
 
 #[derive(Clone, Debug)]
@@ -24,17 +24,11 @@ pub struct Settings {
 
 /// Sees that every job is in the queue or at work, each once, and then to its end; the endings are in the order of the
 /// jobs. Jobs that were handed over before are found again.
-pub fn run(
-    store: &Store,
-    jobs: &[Job],
-    settings: &Settings,
-    stop: &Stop,
-    watcher: &mut dyn Watcher,
-) -> Result<Vec<Ending>, ExecutorError> {
-    let mut watch = Watch::new(store, jobs, settings, watcher);
+pub fn run<'a>(errand: Errand<'a>, settings: &'a Settings, stop: &Stop) -> Result<Vec<Ending>, ExecutorError> {
+    let mut watch = Watch::new(errand, settings);
     watch.hand_over(stop)?;
     if settings.detach {
-        return Ok(watch.endings);
+        return Ok(watch.errand.endings);
     }
     let mut told = false;
     let mut pause = FIRST_PAUSE;
@@ -52,7 +46,7 @@ pub fn run(
         };
         watch.hand_over(stop)?;
     }
-    Ok(watch.endings)
+    Ok(watch.errand.endings)
 }
 
 /// Time between two questions to Slurm: short after something has happened, so that small cases are no waste of time,
@@ -67,12 +61,9 @@ const MOST_UNANSWERED: u32 = 8;
 const LOOKS_FOR_A_RESULT: u32 = 3;
 
 struct Watch<'a> {
-    store: &'a Store,
-    jobs: &'a [Job],
+    errand: Errand<'a>,
     settings: &'a Settings,
-    watcher: &'a mut dyn Watcher,
     cases: Vec<Case>,
-    endings: Vec<Ending>,
     unanswered: u32,
 }
 
@@ -85,25 +76,20 @@ struct Case {
     sighting: Option<Sighting>,
     /// Looks since it left the queue.
     missed: u32,
-    told_busy: bool,
 }
 
 impl<'a> Watch<'a> {
-    fn new(store: &'a Store, jobs: &'a [Job], settings: &'a Settings, watcher: &'a mut dyn Watcher) -> Self {
+    fn new(errand: Errand<'a>, settings: &'a Settings) -> Self {
         let case = |job| Case {
             job,
             ticket: None,
             sighting: None,
             missed: 0,
-            told_busy: false,
         };
         Watch {
-            store,
-            jobs,
+            cases: (0..errand.jobs.len()).map(case).collect(),
+            errand,
             settings,
-            watcher,
-            cases: (0..jobs.len()).map(case).collect(),
-            endings: vec![Ending::NotStarted; jobs.len()],
             unanswered: 0,
         }
     }
@@ -119,20 +105,20 @@ impl<'a> Watch<'a> {
         if without.is_empty() || stop.requested() {
             return Ok(());
         }
-        let _lock = self.store.lock_submission()?;
+        let _lock = self.errand.store.lock_submission()?;
         let seen = commands::sightings(&job_name(&self.settings.study))?;
         let mut free = without;
         free.retain(|&job| !self.find_again(job, &seen) && !self.is_busy(job));
-        let (store, settings) = (self.store, self.settings);
-        for script in scripts(store, &settings.study, self.jobs, &free, &settings.setting) {
-            let ticket = |&job: &usize| ticket_for(store, &self.jobs[job], script.crew);
+        let (store, jobs, settings) = (self.errand.store, self.errand.jobs, self.settings);
+        for script in scripts(store, &settings.study, jobs, &free, &settings.setting) {
+            let ticket = |&job: &usize| ticket_for(store, &jobs[job], script.crew);
             let tickets: Vec<Ticket> = script.jobs.iter().map(ticket).collect();
             // The jobs may begin before `sbatch` has ended.
             tickets.iter().try_for_each(|ticket| ticket.write(store))?;
             let number = commands::submit(&script.to_string())?;
             for (task, (ticket, &job)) in tickets.into_iter().zip(&script.jobs).enumerate() {
                 let slurm_id = script.slurm_id(number, task);
-                self.watcher.submitted(&self.jobs[job], &slurm_id);
+                self.errand.watcher.submitted(&jobs[job], &slurm_id);
                 let ticket = Ticket {
                     slurm_id: Some(slurm_id.clone()),
                     ..ticket
@@ -146,19 +132,16 @@ impl<'a> Watch<'a> {
 
     /// Whether another process computes it, of which the watcher is told once.
     fn is_busy(&mut self, job: usize) -> bool {
-        let busy = matches!(self.store.state(&self.jobs[job].id), State::Running(_));
-        if busy
-            && let Some(case) = self.cases.iter_mut().find(|case| case.job == job)
-            && !std::mem::replace(&mut case.told_busy, true)
-        {
-            self.watcher.waiting(&self.jobs[job]);
+        let busy = matches!(self.errand.store.state(&self.errand.jobs[job].id), State::Running(_));
+        if busy {
+            self.errand.tell_busy(job);
         }
         busy
     }
 
     /// Whether a job of before waits for this case or computes it.
     fn find_again(&mut self, job: usize, seen: &HashMap<String, Sighting>) -> bool {
-        let Some(ticket) = Ticket::read(self.store, &self.jobs[job].id) else {
+        let Some(ticket) = Ticket::read(self.errand.store, &self.errand.jobs[job].id) else {
             return false;
         };
         let Some(slurm_id) = ticket.slurm_id.clone() else {
@@ -172,14 +155,14 @@ impl<'a> Watch<'a> {
     }
 
     fn follow(&mut self, job: usize, ticket: Ticket, slurm_id: String) {
-        self.endings[job] = Ending::HandedOver(slurm_id);
+        self.errand.endings[job] = Ending::HandedOver(slurm_id);
         if let Some(case) = self.cases.iter_mut().find(|case| case.job == job) {
             case.ticket = Some(ticket);
         }
     }
 
     fn cancel(&mut self) -> Result<(), ExecutorError> {
-        self.watcher.stopping();
+        self.errand.watcher.stopping();
         let ids = self
             .cases
             .iter()
@@ -207,9 +190,7 @@ impl<'a> Watch<'a> {
             let sighting = slurm_id.as_ref().and_then(|id| seen.get(id)).cloned();
             changed |= self.tell(position, sighting);
             if let Some(ending) = self.ending(position, stop)? {
-                let case = self.cases.remove(position);
-                self.watcher.ended(&self.jobs[case.job], &ending);
-                self.endings[case.job] = ending;
+                self.errand.end(self.cases.remove(position).job, ending);
                 changed = true;
             }
         }
@@ -219,16 +200,16 @@ impl<'a> Watch<'a> {
     /// Passes on what the queue and the run itself say; whether it is news.
     fn tell(&mut self, position: usize, sighting: Option<Sighting>) -> bool {
         let case = &mut self.cases[position];
-        let job = &self.jobs[case.job];
+        let job = &self.errand.jobs[case.job];
         let news = case.sighting != sighting;
         match &sighting {
-            Some(Sighting::Queued { why }) if news => self.watcher.queued(job, why),
+            Some(Sighting::Queued { why }) if news => self.errand.watcher.queued(job, why),
             Some(Sighting::Running) => {
                 if news {
-                    self.watcher.started(job);
+                    self.errand.watcher.started(job);
                 }
-                if let Some(reached) = self.store.attempt(&job.id).and_then(|attempt| attempt.reached) {
-                    self.watcher.reached(job, &reached);
+                if let Some(reached) = self.errand.store.attempt(&job.id).and_then(|attempt| attempt.reached) {
+                    self.errand.watcher.reached(job, &reached);
                 }
             }
             _ => {}
@@ -242,11 +223,11 @@ impl<'a> Watch<'a> {
     /// How a case has ended; `None` if it has not, or not for certain.
     fn ending(&self, position: usize, stop: &Stop) -> Result<Option<Ending>, ExecutorError> {
         let case = &self.cases[position];
-        let job = &self.jobs[case.job];
+        let job = &self.errand.jobs[case.job];
         if case.missed > 0 {
-            self.store.look_anew(&job.id);
+            self.errand.store.look_anew(&job.id);
         }
-        let state = self.store.state(&job.id);
+        let state = self.errand.store.state(&job.id);
         let Some(Ticket {
             submitted,
             slurm_id: Some(slurm_id),
@@ -273,20 +254,20 @@ impl<'a> Watch<'a> {
             _ => commands::accounted(&[slurm_id], *submitted).remove(slurm_id),
         };
         if stop.requested() || word.as_deref() == Some("CANCELLED") {
-            return Ok(Some(Ending::Interrupted(self.store.attempt(&job.id))));
+            return Ok(Some(Ending::Interrupted(self.errand.store.attempt(&job.id))));
         }
         self.fail(job, slurm_id, word.as_deref())
     }
 
     /// Writes down why a case has no result; nothing if another process works on it again.
     fn fail(&self, job: &Job, slurm_id: &str, word: Option<&str>) -> Result<Option<Ending>, ExecutorError> {
-        let Some(mut claim) = self.store.claim(&job.id)? else {
+        let Some(mut claim) = self.errand.store.claim(&job.id)? else {
             return Ok(None);
         };
         if !claim.folder().exists() {
             claim.begin(&job.case_text, false)?;
         }
-        let said = tail_of(&ticket::output(self.store, slurm_id));
+        let said = tail_of(&ticket::output(self.errand.store, slurm_id));
         let failure = claim.fail(None, ending::meaning(slurm_id, word), said)?;
         Ok(Some(Ending::Failed(Box::new(failure))))
     }
