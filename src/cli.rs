@@ -70,7 +70,7 @@ enum StudyCommand {
     /// Tell what would run, why, and the exact command
     Plan(plan::Arguments),
     /// Tell the state of every case
-    Status(survey::OfResults),
+    Status(status::Arguments),
     /// End the jobs of a study on Slurm; those at work write a checkpoint first
     Cancel(survey::OfResults),
     /// Build tables, figures and report again from what is there
@@ -120,7 +120,7 @@ impl Command {
             Command::Study(StudyCommand::Run(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Check(common)) => common.json,
             Command::Study(StudyCommand::Plan(arguments)) => arguments.of.common.json,
-            Command::Study(StudyCommand::Status(arguments)) => arguments.common.json,
+            Command::Study(StudyCommand::Status(arguments)) => arguments.of.common.json,
             Command::Study(StudyCommand::Cancel(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Report(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Clean(arguments)) => arguments.of.common.json,

@@ -19,6 +19,7 @@ mod files;
 mod links;
 mod manifest;
 mod state;
+mod verify;
 
 pub use claim::{Claim, FolderLock};
 pub use clean::Leftover;

@@ -7,42 +7,56 @@ use serde_json::json;
 
 use super::CliError;
 use super::survey::{self, OfResults, Survey};
-use super::terminal::Terminal;
+use super::terminal::{self, Terminal};
 use crate::report;
 use crate::store::{Program, State};
 
 /// `cgaft study report FILE`
 pub fn rebuild_report(arguments: &OfResults) -> Result<u8, CliError> {
-    let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
+    let mut survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
     survey.store.prepare()?;
-    let path = rebuild(&survey)?;
+    let Built { path, damaged } = rebuild(&mut survey)?;
     let json = json!({ "study": survey.plan.study, "report": path });
     let terminal = Terminal {
         quiet: false,
         json: arguments.common.json,
     };
     terminal.result(&json, || format!("report: {}\n", path.display()))?;
-    Ok(0)
+    Ok(u8::from(damaged))
 }
 
-/// Builds the report unless it is there and tells of exactly these runs; where it is.
-pub fn bring_up_to_date(survey: &Survey) -> Result<PathBuf, CliError> {
+/// A report that is up to date.
+pub struct Built {
+    pub path: PathBuf,
+    /// A case is not in it because its published files were found to be damaged.
+    pub damaged: bool,
+}
+
+/// Builds the report unless it is there and tells of exactly these runs.
+pub fn bring_up_to_date(survey: &mut Survey) -> Result<Built, CliError> {
     let path = survey.store.root().join("report.html");
     let current = fs::read_to_string(stamp_path(survey)).is_ok_and(|stamp| stamp == fingerprint(survey));
     if current && path.exists() {
-        Ok(path)
+        let damaged = survey.damaged().next().is_some();
+        Ok(Built { path, damaged })
     } else {
         rebuild(survey)
     }
 }
 
-fn rebuild(survey: &Survey) -> Result<PathBuf, CliError> {
+fn rebuild(survey: &mut Survey) -> Result<Built, CliError> {
     let _lock = survey.store.lock_report()?;
     // A kill while the report is built leaves no stamp that fits.
     stamp(survey, "")?;
+    survey.verify();
+    let mut damaged = false;
+    for (case, why) in survey.damaged() {
+        damaged = true;
+        terminal::warn(&format!("{case}: damaged: {why}; `cgaft study run` computes it again"));
+    }
     let path = build(survey)?;
     stamp(survey, &fingerprint(survey))?;
-    Ok(path)
+    Ok(Built { path, damaged })
 }
 
 fn stamp(survey: &Survey, fingerprint: &str) -> Result<(), CliError> {

@@ -89,12 +89,13 @@ pub fn run(arguments: &Arguments) -> Result<u8, CliError> {
     let reasons: Vec<String> = survey.entries.iter().map(|entry| entry.reason.clone()).collect();
     survey.refresh();
     link(&survey)?;
-    let code = exit_code(&endings, stop.requested());
-    let report = if code == exit::INTERRUPTED || arguments.detach {
-        None
-    } else {
-        Some(report::bring_up_to_date(&survey)?)
-    };
+    let mut code = exit_code(&endings, stop.requested());
+    let mut report = None;
+    if code != exit::INTERRUPTED && !arguments.detach {
+        let built = report::bring_up_to_date(&mut survey)?;
+        code = code.max(u8::from(built.damaged));
+        report = Some(built.path);
+    }
     let results: Vec<Value> = chosen
         .iter()
         .map(|&position| result(&survey.entries[position], &reasons[position], &prepared))

@@ -1,3 +1,4 @@
+use clap::Args;
 use serde_json::json;
 
 use super::survey::{self, Entry, OfResults, Survey};
@@ -5,17 +6,58 @@ use super::terminal::Terminal;
 use super::{CliError, format};
 use crate::store::{Manifest, State};
 
+#[derive(Args, Debug)]
+pub struct Arguments {
+    #[command(flatten)]
+    pub of: OfResults,
+    /// Read every published file and compare it with its checksum; exit code 1 if one is damaged
+    #[arg(long)]
+    pub verify: bool,
+}
+
 /// `cgaft study status FILE`
-pub fn status(arguments: &OfResults) -> Result<u8, CliError> {
-    let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
+pub fn status(arguments: &Arguments) -> Result<u8, CliError> {
+    let OfResults { common, place } = &arguments.of;
+    let mut survey = survey::survey(&common.study, &place.results)?;
+    if arguments.verify {
+        survey.verify();
+    }
     let cases: Vec<_> = survey.entries.iter().map(Entry::to_json).collect();
     let json = json!({ "study": survey.plan.study, "results": survey.store.root(), "cases": cases });
     let terminal = Terminal {
         quiet: false,
-        json: arguments.common.json,
+        json: common.json,
     };
-    terminal.result(&json, || words(&survey))?;
-    Ok(0)
+    terminal.result(&json, || {
+        let mut told = words(&survey);
+        if arguments.verify {
+            told += &verdict(&survey);
+        }
+        told
+    })?;
+    Ok(u8::from(arguments.verify && survey.damaged().next().is_some()))
+}
+
+/// What came of comparing content with checksums.
+fn verdict(survey: &Survey) -> String {
+    let done = |with_checksums: bool| {
+        let is_meant = |entry: &&Entry| match &entry.state {
+            State::Done(manifest) => manifest.blake3.is_empty() != with_checksums,
+            _ => false,
+        };
+        survey.entries.iter().filter(is_meant).count()
+    };
+    let found = [
+        (done(true), "as published, every byte"),
+        (
+            done(false),
+            "of the right sizes; published before there were checksums, more is not known",
+        ),
+        (survey.damaged().count(), "damaged"),
+    ];
+    let told = found.iter().filter(|(count, _)| *count > 0);
+    told.map(|(count, what)| format!("{}: {what}\n", format::count(*count, "case")))
+        .collect()
 }
 
 fn words(survey: &Survey) -> String {
@@ -69,6 +111,7 @@ fn detail(survey: &Survey, entry: &Entry) -> String {
                 survey.store.partial_folder(&entry.id).join("log.txt").display()
             )
         }
+        State::Corrupt { why } => format!("{why}; `cgaft study run` computes it again"),
         _ => entry.reason.clone(),
     }
 }

@@ -104,6 +104,24 @@ impl Survey {
         self.entries.iter().any(|entry| entry.id == id && entry.is_on_slurm())
     }
 
+    /// Looks at the content of every published file too.
+    pub fn verify(&mut self) {
+        for entry in &mut self.entries {
+            if matches!(entry.state, State::Done(_) | State::Corrupt { .. }) {
+                entry.state = self.store.verified_state(&entry.id);
+                entry.reason = reason(&self.store, &entry.planned, &entry.id, &entry.state);
+            }
+        }
+    }
+
+    /// Cases that were published and whose files are no longer what they were, with what is wrong.
+    pub fn damaged(&self) -> impl Iterator<Item = (&str, &str)> {
+        self.entries.iter().filter_map(|entry| match &entry.state {
+            State::Corrupt { why } => Some((entry.planned.name.as_str(), why.as_str())),
+            _ => None,
+        })
+    }
+
     /// Looks again, after something has run.
     pub fn refresh(&mut self) {
         self.entries = entries(&self.store, &self.plan);

@@ -15,9 +15,6 @@ use super::{RecordError, aside, file};
 /// Length of the header, bytes; the smallest user block of HDF5.
 const HEADER: usize = 512;
 
-/// What is read at a time, bytes.
-const BLOCK: usize = 1 << 18;
-
 /// What a sealed file says it is.
 #[derive(Clone, Copy)]
 pub(super) struct Seal<'a> {
@@ -133,15 +130,8 @@ impl Seal<'_> {
     }
 }
 
-fn checksum(identity: &str, mut body: impl Read) -> std::io::Result<String> {
+fn checksum(identity: &str, body: impl Read) -> std::io::Result<String> {
     let mut hasher = blake3::Hasher::new();
-    hasher.update(identity.as_bytes());
-    let mut block = vec![0; BLOCK];
-    loop {
-        match body.read(&mut block)? {
-            0 => break,
-            length => hasher.update(&block[..length]),
-        };
-    }
+    hasher.update(identity.as_bytes()).update_reader(body)?;
     Ok(format!("blake3 {}", hasher.finalize()))
 }

@@ -123,6 +123,7 @@ impl Claim {
         for name in [OUTCOME, COST, SOLVER_LOCK, "attempt.json", "failure.json", MANIFEST] {
             files::remove(&folder.join(name))?;
         }
+        let (files, blake3) = settle_files(&folder)?;
         let manifest = Manifest {
             id: self.id.clone(),
             case_name: case_name.to_owned(),
@@ -138,7 +139,8 @@ impl Claim {
             wall_seconds: self.attempt.wall_seconds,
             exit_state: ExitState::Done,
             outcome,
-            files: sync_files(&folder)?,
+            files,
+            blake3,
         };
         files::write_json(&folder.join(MANIFEST), &manifest)?;
         files::sync(&folder)?;
@@ -184,9 +186,10 @@ impl Claim {
     }
 }
 
-/// Flushes every file of a run to the disk, but for what a killed process has left half written; their sizes by name.
-fn sync_files(folder: &Path) -> Result<BTreeMap<String, u64>, StoreError> {
-    let mut sizes = BTreeMap::new();
+/// Flushes every file of a run to the disk, but for what a killed process has left half written; sizes and checksums by
+/// name. What has just been written is still in memory, so that a checksum costs no reading of the disk.
+fn settle_files(folder: &Path) -> Result<(BTreeMap<String, u64>, BTreeMap<String, String>), StoreError> {
+    let (mut sizes, mut checksums) = (BTreeMap::new(), BTreeMap::new());
     for entry in fs::read_dir(folder).map_err(StoreError::read(folder))? {
         let path = entry.map_err(StoreError::read(folder))?.path();
         let metadata = fs::metadata(&path).map_err(StoreError::read(&path))?;
@@ -195,10 +198,12 @@ fn sync_files(folder: &Path) -> Result<BTreeMap<String, u64>, StoreError> {
             files::remove(&path)?;
         } else if metadata.is_file() {
             files::sync(&path)?;
-            sizes.insert(name, metadata.len());
+            let checksum = files::checksum(&path).map_err(StoreError::read(&path))?;
+            sizes.insert(name.clone(), metadata.len());
+            checksums.insert(name, checksum);
         }
     }
-    Ok(sizes)
+    Ok((sizes, checksums))
 }
 
 /// Keeps a second solver out of a folder, from the solver's side.

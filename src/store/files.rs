@@ -1,7 +1,7 @@
 //! Writing that survives a crash: a file is either old or new, never half.
 
 use std::fs::{self, File, TryLockError};
-use std::io::Write;
+use std::io::{self, Write};
 use std::path::Path;
 
 use serde::Serialize;
@@ -37,6 +37,13 @@ pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
     let name = path.file_name().unwrap_or_default().display();
     let text = fs::read_to_string(path).map_err(|error| format!("{name} cannot be read ({error})"))?;
     serde_json::from_str(&text).map_err(|error| format!("{name} is damaged ({error})"))
+}
+
+/// BLAKE3 of what is in a file, hexadecimal.
+pub fn checksum(path: &Path) -> io::Result<String> {
+    let mut hasher = blake3::Hasher::new();
+    hasher.update_reader(File::open(path)?)?;
+    Ok(hasher.finalize().to_string())
 }
 
 pub fn open_lock(path: &Path) -> Result<File, StoreError> {

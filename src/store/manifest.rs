@@ -34,6 +34,9 @@ pub struct Manifest {
     pub outcome: Outcome,
     /// Size of every file of the run, bytes; a run that no longer matches is corrupt.
     pub files: BTreeMap<String, u64>,
+    /// BLAKE3 of every file of the run, hexadecimal; empty in manifests from before there were any.
+    #[serde(default)]
+    pub blake3: BTreeMap<String, String>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

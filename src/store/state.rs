@@ -58,9 +58,9 @@ impl Store {
     pub(super) fn state_on_disk(&self, id: &str) -> State {
         let partial = self.partial_folder(id);
         if self.run_folder(id).exists() {
-            return match self.manifest(id) {
-                Ok(manifest) => State::Done(Box::new(manifest)),
-                Err(why) => State::Corrupt { why },
+            return match (self.known_damage(id), self.manifest(id)) {
+                (None, Ok(manifest)) => State::Done(Box::new(manifest)),
+                (Some(why), _) | (None, Err(why)) => State::Corrupt { why },
             };
         }
         if !partial.exists() {
@@ -75,8 +75,8 @@ impl Store {
         }
     }
 
-    /// The manifest of a published run, if the run is as it was published; otherwise what is wrong with it.
-    fn manifest(&self, id: &str) -> Result<Manifest, String> {
+    /// The manifest of a published run whose files are there in the sizes they were published with; otherwise what is wrong.
+    pub(super) fn manifest(&self, id: &str) -> Result<Manifest, String> {
         let folder = self.run_folder(id);
         let manifest: Manifest = files::read_json(&folder.join("manifest.json"))?;
         if manifest.id != id {

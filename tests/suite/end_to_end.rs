@@ -1,6 +1,7 @@
 //! Studies from the file to the report, with the real programs.
 
 mod checkpoint;
+mod damage;
 mod failure;
 mod full;
 mod interrupt;

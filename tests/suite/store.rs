@@ -171,6 +171,67 @@ fn damage_to_a_published_run_is_seen() {
     }
 }
 
+/// Another byte in the place of the first.
+fn flip_a_bit(file: &Path) {
+    let mut bytes = fs::read(file).unwrap();
+    bytes[0] ^= 1;
+    fs::write(file, bytes).unwrap();
+}
+
+#[test]
+fn a_flipped_bit_is_found_by_who_looks_for_it_and_remembered_until_the_file_is_whole_again() {
+    let (_folder, store) = store();
+    publish(&store, "1f");
+    assert!(matches!(store.verified_state("1f"), State::Done(_)));
+    let series = store.run_folder("1f").join("series.h5");
+    flip_a_bit(&series);
+    assert!(matches!(store.state("1f"), State::Done(_)), "its size is right");
+    let damaged = State::Corrupt {
+        why: "series.h5 no longer holds what was published".to_owned(),
+    };
+    assert_eq!(store.verified_state("1f"), damaged);
+    assert_eq!(store.state("1f"), damaged, "who asks later is told too");
+
+    flip_a_bit(&series);
+    assert!(matches!(store.verified_state("1f"), State::Done(_)));
+    assert!(matches!(store.state("1f"), State::Done(_)));
+
+    flip_a_bit(&series);
+    store.verified_state("1f");
+    publish(&store, "1f");
+    assert!(matches!(store.state("1f"), State::Done(_)), "a new run takes its place");
+}
+
+#[test]
+fn a_run_that_is_just_being_replaced_is_not_looked_into() {
+    let (_folder, store) = store();
+    publish(&store, "1f");
+    flip_a_bit(&store.run_folder("1f").join("series.h5"));
+    let at_work = store.claim("1f").unwrap().unwrap();
+    assert!(matches!(store.verified_state("1f"), State::Done(_)));
+    drop(at_work);
+    assert!(matches!(store.verified_state("1f"), State::Corrupt { .. }));
+    assert_eq!(store.verified_state("2e"), State::Missing);
+}
+
+#[test]
+fn a_run_published_before_there_were_checksums_is_judged_by_its_sizes() {
+    let (_folder, store) = store();
+    publish(&store, "1f");
+    let path = store.run_folder("1f").join("manifest.json");
+    let mut manifest: serde_json::Value = serde_json::from_str(&fs::read_to_string(&path).unwrap()).unwrap();
+    assert_eq!(manifest["blake3"].as_object().unwrap().len(), 2);
+    manifest.as_object_mut().unwrap().remove("blake3");
+    fs::write(&path, manifest.to_string()).unwrap();
+    flip_a_bit(&store.run_folder("1f").join("series.h5"));
+    let State::Done(manifest) = store.verified_state("1f") else {
+        panic!("its sizes are right")
+    };
+    assert!(manifest.blake3.is_empty());
+    cut_series(&store.run_folder("1f"));
+    assert!(matches!(store.verified_state("1f"), State::Corrupt { .. }));
+}
+
 fn remove_series(run: &Path) {
     fs::remove_file(run.join("series.h5")).unwrap();
 }

@@ -1,0 +1,59 @@
+//! Published files that change on the disk afterwards.
+
+use std::fs;
+use std::path::Path;
+
+use super::{Workspace, assert_same_results};
+
+/// Another bit in the middle of a file, whose size stays.
+fn flip_a_bit(file: &Path) {
+    let mut bytes = fs::read(file).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(file, bytes).unwrap();
+}
+
+#[test]
+fn a_flipped_bit_is_told_by_the_report_and_the_next_run_computes_the_case_again() {
+    for name in ["series.h5", "fields.vtkhdf"] {
+        let place = Workspace::new();
+        let whole = Workspace::new();
+        for place in [&place, &whole] {
+            place.cgaft("run", &["--only", "coarse"]).succeeded();
+        }
+        let told = place.cgaft("status", &["--verify"]).succeeded();
+        assert!(told.stdout.contains("1 case: as published"), "{}", told.stdout);
+
+        flip_a_bit(&place.case("coarse").join(name));
+        let report = place.cgaft("report", &[]).ended_with(1);
+        let why = format!("coarse: damaged: {name} no longer holds what was published");
+        for words in [why.as_str(), "`cgaft study run` computes it again"] {
+            assert!(report.stderr.contains(words), "no `{words}` in {}", report.stderr);
+        }
+        let page = fs::read_to_string(place.results().join("report.md")).unwrap();
+        assert!(page.contains("no longer holds what was published"), "{page}");
+
+        let again = place.cgaft("run", &["--only", "coarse"]).succeeded();
+        assert!(again.stdout.contains("coarse: runs (corrupt: "), "{}", again.stdout);
+        assert!(again.started("coarse"));
+        assert_same_results(&place.case("coarse"), &whole.case("coarse"));
+        assert_eq!(place.states()[0], "done");
+    }
+}
+
+#[test]
+fn who_asks_for_it_is_told_of_damage_by_words_json_and_exit_code() {
+    let place = Workspace::new();
+    place.cgaft("run", &["--only", "coarse"]).succeeded();
+    flip_a_bit(&place.case("coarse").join("checkpoint.h5"));
+    assert_eq!(place.states()[0], "done", "a look at the sizes does not tell");
+    let json = place.cgaft("status", &["--verify", "--json"]).ended_with(1).json();
+    assert_eq!(json["cases"][0]["state"], "corrupt");
+    let told = place.cgaft("status", &["--verify"]).ended_with(1).stdout;
+    for words in [
+        "checkpoint.h5 no longer holds what was published; `cgaft study run` computes it again",
+        "1 case: damaged\n",
+    ] {
+        assert!(told.contains(words), "no `{words}` in {told}");
+    }
+}
