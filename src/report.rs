@@ -29,12 +29,19 @@ use std::path::{Path, PathBuf};
 
 use crate::analysis::comparison::{self, Candidate, Difference};
 use crate::analysis::{self, Findings};
+use crate::record::RecordError;
 
 /// What went wrong while a report was made.
 #[derive(Debug, thiserror::Error)]
 pub enum ReportError {
-    #[error("cannot write {}: {source}; check that the folder is writable and the disk is not full", path.display())]
+    #[error(
+        "cannot write {}: {source}; make room or the folder writable, then `cgaft study report` builds it again: \
+         the runs that it shows are safe",
+        path.display()
+    )]
     Write { path: PathBuf, source: std::io::Error },
+    #[error("cannot draw a picture: {0}")]
+    Read(#[from] RecordError),
     #[error("cannot make table `{table}`: {reason}; this is a defect of the program, please report it")]
     Table { table: &'static str, reason: String },
     #[error("cannot draw figure `{figure}`: {reason}; this is a defect of the program, please report it")]

@@ -27,7 +27,7 @@ pub enum CliError {
 impl CliError {
     pub fn exit_code(&self) -> u8 {
         match self {
-            CliError::Study(_) | CliError::Input(_) => exit::BAD_INPUT,
+            CliError::Study(_) | CliError::Input(_) | CliError::Report(ReportError::Read(_)) => exit::BAD_INPUT,
             CliError::Environment(_) => exit::MISSING_ENVIRONMENT,
             CliError::Executor(
                 ExecutorError::NoSolver | ExecutorError::Start { .. } | ExecutorError::Mpi(_) | ExecutorError::Slurm(_),

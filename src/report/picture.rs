@@ -5,13 +5,12 @@ mod drawing;
 mod indexed;
 mod shade;
 
-use std::fs;
 use std::path::Path;
 
 use super::film::Film;
 use super::slab;
 use super::units::PERCENT;
-use super::{Analysed, ReportError, numbers};
+use super::{Analysed, ReportError, numbers, save};
 use crate::plan::Stages;
 use crate::record::frames::Frame;
 use drawing::Drawing;
@@ -150,7 +149,7 @@ fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Res
 
 impl Wanted<'_> {
     fn frame(&self) -> Result<Frame, ReportError> {
-        read(self.film, self.frame, &self.file)
+        Ok(self.film.frame(self.frame)?)
     }
 
     /// `None` where there is nothing to be seen.
@@ -160,7 +159,6 @@ impl Wanted<'_> {
         let Some(view) = slab::view(&slab::positions(mesh, frame), MARGIN * spacing) else {
             return Ok(None);
         };
-        let path = folder.join(&self.file);
         let drawing = Drawing {
             mesh,
             frame,
@@ -169,15 +167,16 @@ impl Wanted<'_> {
             shade,
             limit,
         };
-        drawing.draw(&path).map_err(|error| ReportError::Figure {
+        let png = drawing.draw(&self.file).map_err(|error| ReportError::Figure {
             figure: self.file.clone(),
             reason: error.to_string(),
         })?;
+        save(&folder.join(&self.file), &png)?;
         Ok(Some(Picture {
             file: self.file.clone(),
             title: self.title.clone(),
             caption: self.caption(frame.time, frame.strain),
-            png: fs::read(&path).map_err(|source| ReportError::Write { path, source })?,
+            png,
         }))
     }
 
@@ -194,11 +193,4 @@ impl Wanted<'_> {
         });
         format!("At {strain} % strain, {time} ps{after}.{sizes}")
     }
-}
-
-fn read(film: &Film, index: usize, figure: &str) -> Result<Frame, ReportError> {
-    film.frame(index).map_err(|error| ReportError::Figure {
-        figure: figure.to_owned(),
-        reason: error.to_string(),
-    })
 }

@@ -1,6 +1,5 @@
 //! The tables of a study: absent values are empty, never 0.
 
-use std::fs::File;
 use std::path::Path;
 
 use polars::prelude::*;
@@ -9,7 +8,7 @@ use super::ahead::{Ahead, profile_at_initiation};
 use super::numbers::{self, round_significant};
 use super::precision::{self, Quantity};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
-use super::{Analysed, ReportError, branching, expected, toughness};
+use super::{Analysed, ReportError, branching, expected, save, toughness};
 use crate::analysis::waves::{Arrival, Face, Wave};
 use crate::plan::Comparison;
 
@@ -61,22 +60,23 @@ pub fn all(cases: &[Analysed], comparisons: &[Comparison]) -> Result<Vec<Table>,
 impl Table {
     /// Writes `<name>.csv` into a folder, and `<name>.parquet` where that is built in.
     pub fn write(&mut self, folder: &Path) -> Result<(), ReportError> {
-        let failed = |table, error: PolarsError| ReportError::Table {
+        let table = self.name;
+        let failed = |error: PolarsError| ReportError::Table {
             table,
             reason: error.to_string(),
         };
-        let create = |ending: &str| {
-            let path = folder.join(format!("{}.{ending}", self.name));
-            File::create(&path).map_err(|source| ReportError::Write { path, source })
-        };
-        let csv = create("csv")?;
+        let path = |ending: &str| folder.join(format!("{table}.{ending}"));
+        // In memory first: what goes wrong on the disk is then told as such.
+        let mut bytes = Vec::new();
+        CsvWriter::new(&mut bytes).finish(&mut self.frame).map_err(failed)?;
+        save(&path("csv"), &bytes)?;
         #[cfg(feature = "parquet")]
-        ParquetWriter::new(create("parquet")?)
-            .finish(&mut self.frame)
-            .map_err(|error| failed(self.name, error))?;
-        CsvWriter::new(csv)
-            .finish(&mut self.frame)
-            .map_err(|error| failed(self.name, error))
+        {
+            bytes.clear();
+            ParquetWriter::new(&mut bytes).finish(&mut self.frame).map_err(failed)?;
+            save(&path("parquet"), &bytes)?;
+        }
+        Ok(())
     }
 
     pub fn columns(&self) -> Vec<String> {

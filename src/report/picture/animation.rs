@@ -1,16 +1,15 @@
 //! All pictures of one case, one after the other: an animated PNG, which browsers show as they are.
 
-use std::fs;
 use std::path::Path;
 
 use super::indexed::Palette;
 use super::shade::{Shade, scale_end};
-use super::{MARGIN, Picture, read};
+use super::{MARGIN, Picture};
 use crate::plan::Stages;
 use crate::report::film::Film;
 use crate::report::slab;
 use crate::report::units::PERCENT;
-use crate::report::{Analysed, ReportError, numbers};
+use crate::report::{Analysed, ReportError, numbers, save};
 
 pub const FILE: &str = "motion.png";
 
@@ -32,8 +31,8 @@ pub fn draw(cases: &[Analysed], stages: &Stages, folder: &Path) -> Result<Option
     let Some(strip) = Strip::of(film, spacing)? else {
         return Ok(None);
     };
-    let path = folder.join(FILE);
-    strip.write(film, spacing, &path)?;
+    let png = strip.encode(film, spacing)?;
+    save(&folder.join(FILE), &png)?;
     let strain = |moment: &(f64, f64)| numbers::significant(moment.1 * PERCENT, 3);
     Ok(Some(Picture {
         file: FILE.to_owned(),
@@ -45,7 +44,7 @@ pub fn draw(cases: &[Analysed], stages: &Stages, folder: &Path) -> Result<Option
             strain(last),
             numbers::tick(strip.limit)
         ),
-        png: fs::read(&path).map_err(|source| ReportError::Write { path, source })?,
+        png,
     }))
 }
 
@@ -62,7 +61,7 @@ impl Strip {
         if count < 2 {
             return Ok(None);
         }
-        let last = read(film, count - 1, FILE)?;
+        let last = film.frame(count - 1)?;
         let Some(view) = slab::view(&slab::positions(&film.mesh, &last), MARGIN * spacing) else {
             return Ok(None);
         };
@@ -75,12 +74,13 @@ impl Strip {
         }))
     }
 
-    fn write(&self, film: &Film, spacing: f64, path: &Path) -> Result<(), ReportError> {
+    /// The bytes of its file.
+    fn encode(&self, film: &Film, spacing: f64) -> Result<Vec<u8>, ReportError> {
         let mut pictures = (0..film.moments().len()).map(|index| {
-            let frame = read(film, index, FILE)?;
+            let frame = film.frame(index)?;
             let colours = Shade::Speed.colours(&film.mesh, &frame, self.limit);
             Ok(slab::paint(&film.mesh, &frame, spacing, self.view, &colours, self.size))
         });
-        Palette::of(Shade::Speed).write(path, self.size, PICTURES_A_SECOND, &mut pictures)
+        Palette::of(Shade::Speed).encode(FILE, self.size, PICTURES_A_SECOND, &mut pictures)
     }
 }

@@ -1,7 +1,5 @@
 //! One picture of a slab, with axes and a colour scale.
 
-use std::path::Path;
-
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
@@ -35,7 +33,8 @@ pub struct Drawing<'a> {
 }
 
 impl Drawing<'_> {
-    pub fn draw(&self, path: &Path) -> Result<(), Box<dyn std::error::Error + Send + Sync>> {
+    /// The bytes of its file.
+    pub fn draw(&self, figure: &str) -> Result<Vec<u8>, Box<dyn std::error::Error + Send + Sync>> {
         prepare_fonts();
         let View { x, y } = self.view;
         let inner = WIDTH - EDGE - LEFT - RIGHT;
@@ -47,8 +46,8 @@ impl Drawing<'_> {
             height,
         )?;
         let mut pictures = [Ok(picture)].into_iter();
-        Palette::of(self.shade).write(path, [size.0, size.1].map(|side| side as usize), 1, &mut pictures)?;
-        Ok(())
+        let size = [size.0, size.1].map(|side| side as usize);
+        Ok(Palette::of(self.shade).encode(figure, size, 1, &mut pictures)?)
     }
 
     fn draw_on(

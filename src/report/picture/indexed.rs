@@ -1,9 +1,6 @@
 //! PNG files of few colours, which are a third as large as those of all.
 
 use std::collections::HashMap;
-use std::fs::File;
-use std::io::BufWriter;
-use std::path::Path;
 
 use super::shade::Shade;
 use crate::report::ReportError;
@@ -47,24 +44,20 @@ impl Palette {
         pixels.chunks_exact(3).map(index).collect()
     }
 
-    /// A file of pictures of a size, shown one after the other at so many a second where there are several.
-    pub fn write(
+    /// The bytes of a file of pictures of a size, shown one after the other at so many a second where there are several.
+    pub fn encode(
         &mut self,
-        path: &Path,
+        figure: &str,
         [width, height]: [usize; 2],
         pace: u16,
         pictures: &mut dyn ExactSizeIterator<Item = Result<Vec<u8>, ReportError>>,
-    ) -> Result<(), ReportError> {
-        let figure = path.display().to_string();
+    ) -> Result<Vec<u8>, ReportError> {
         let failed = |error: png::EncodingError| ReportError::Figure {
-            figure: figure.clone(),
+            figure: figure.to_owned(),
             reason: error.to_string(),
         };
-        let file = File::create(path).map_err(|source| ReportError::Write {
-            path: path.to_owned(),
-            source,
-        })?;
-        let mut encoder = png::Encoder::new(BufWriter::new(file), width as u32, height as u32);
+        let mut bytes = Vec::new();
+        let mut encoder = png::Encoder::new(&mut bytes, width as u32, height as u32);
         encoder.set_color(png::ColorType::Indexed);
         encoder.set_depth(png::BitDepth::Eight);
         encoder.set_palette(self.colours.as_flattened());
@@ -77,6 +70,7 @@ impl Palette {
         for pixels in pictures {
             writer.write_image_data(&self.indexed(&pixels?)).map_err(failed)?;
         }
-        writer.finish().map_err(failed)
+        writer.finish().map_err(failed)?;
+        Ok(bytes)
     }
 }

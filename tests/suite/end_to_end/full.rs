@@ -11,11 +11,11 @@ fn results(run: &Path) -> Vec<Vec<u8>> {
     RESULTS.iter().map(|name| fs::read(run.join(name)).unwrap()).collect()
 }
 
-/// `cgaft study run` where no file may become larger than this.
-fn with_files_up_to(place: &Workspace, kibibytes: u32, words: &[&str]) -> Said {
+/// `cgaft study COMMAND` where no file may become larger than this.
+fn with_files_up_to(place: &Workspace, kibibytes: u32, command: &str, words: &[&str]) -> Said {
     // The shell counts blocks of 512 bytes. Ignored, the signal becomes the error that a full disk gives.
     let limited = format!("trap '' XFSZ; ulimit -f {}; exec \"$@\"", 2 * kibibytes);
-    let run = place.command("run", words);
+    let run = place.command(command, words);
     let mut shell = Command::new("sh");
     shell
         .args(["-c", &limited, "sh"])
@@ -35,7 +35,7 @@ fn a_case_that_cannot_be_written_fails_with_advice_and_goes_on_when_there_is_roo
     let published = results(&place.case("coarse"));
 
     // Larger than the files of the coarse case, smaller than the frames of the others and than a picture of the report.
-    let full = with_files_up_to(&place, 60, &[]).ended_with(5);
+    let full = with_files_up_to(&place, 60, "run", &[]).ended_with(5);
     for told in [
         "atoms: failed: the output could not be written (exit code 5)",
         "could not be written: File too large; make room",
@@ -57,9 +57,27 @@ fn a_case_computed_afresh_keeps_the_run_before_until_it_is_written_whole() {
     let place = Workspace::restless();
     place.cgaft("run", &["--only", "atoms"]).succeeded();
     let published = results(&place.case("atoms"));
-    with_files_up_to(&place, 60, &["--only", "atoms", "--fresh"]).ended_with(1);
+    with_files_up_to(&place, 60, "run", &["--only", "atoms", "--fresh"]).ended_with(1);
     assert!(results(&place.case("atoms")) == published);
     assert_eq!(place.states()[2], "done");
+}
+
+#[test]
+fn a_report_that_cannot_be_written_tells_which_file_and_what_to_do_and_is_built_when_there_is_room() {
+    let place = Workspace::new();
+    place.cgaft("run", &["--only", "mixed"]).succeeded();
+    let page = fs::read(place.results().join("report.md")).unwrap();
+    // Smaller than a table, than a picture, and than the page itself.
+    for (kibibytes, file) in [(1, "tables/"), (50, "figures/slab-"), (100, "report.html")] {
+        let full = with_files_up_to(&place, kibibytes, "report", &[]).ended_with(5);
+        let told = format!("the report: cannot write results/slab/{file}");
+        for words in [told.as_str(), "File too large", "make room", "`cgaft study report`"] {
+            assert!(full.stderr.contains(words), "no `{words}` in {}", full.stderr);
+        }
+        assert!(!full.stderr.contains("defect"), "{}", full.stderr);
+    }
+    place.cgaft("run", &["--only", "mixed"]).succeeded();
+    assert!(fs::read(place.results().join("report.md")).unwrap() == page);
 }
 
 /// A file system of its own; `None` for who may not mount one.
