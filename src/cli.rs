@@ -26,12 +26,13 @@ pub use error::CliError;
 
 use std::process::ExitCode;
 
+use clap::error::{ContextKind, ContextValue};
 use clap::{Parser, Subcommand};
 use terminal::Terminal;
 
 /// Coarse-grained atomistic dynamics of fracture: from a study file to a report.
 ///
-/// Exit codes: 0 done, 1 a case failed, 2 bad input, 3 something is missing on this machine,
+/// Exit codes: 0 done, 1 a case failed or is damaged, 2 bad input, 3 something is missing on this machine,
 /// 5 output could not be written, 130 interrupted.
 #[derive(Debug, Parser)]
 #[command(name = "cgaft", version, propagate_version = true, arg_required_else_help = true)]
@@ -81,7 +82,7 @@ enum StudyCommand {
 
 /// The whole of `cgaft`.
 pub fn main() -> ExitCode {
-    let command = Cgaft::parse().command;
+    let command = Cgaft::try_parse().unwrap_or_else(|error| refuse(error)).command;
     let json = command.json();
     match command.carry_out() {
         Ok(code) => ExitCode::from(code),
@@ -94,6 +95,18 @@ pub fn main() -> ExitCode {
             ExitCode::from(error.exit_code())
         }
     }
+}
+
+/// Tells a mistake in what was typed; who has left out `study` is told so.
+fn refuse(mut error: clap::Error) -> ! {
+    let typed = error.get(ContextKind::InvalidSubcommand);
+    if let Some(ContextValue::String(word)) = typed
+        && StudyCommand::has_subcommand(word)
+    {
+        let meant = vec![format!("study {word}")];
+        error.insert(ContextKind::SuggestedSubcommand, ContextValue::Strings(meant));
+    }
+    error.exit()
 }
 
 impl Command {

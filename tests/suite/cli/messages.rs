@@ -134,6 +134,14 @@ fn an_unknown_case_is_refused_with_the_nearest_name() {
 }
 
 #[test]
+fn who_leaves_out_the_word_study_is_told() {
+    let place = Workspace::new();
+    let refused = place.cgaft(&["run", "slab.yaml"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("'study run'"), "{}", refused.stderr);
+}
+
+#[test]
 fn what_is_missing_on_the_machine_has_its_own_exit_code() {
     let place = Workspace::new();
     let lost = said(
