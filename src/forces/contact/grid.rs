@@ -21,12 +21,8 @@ impl Grid {
             }
         }
         let extent = [0, 1].map(|axis| (high[axis] - low[axis]).max(0.0));
-        // Fragments that fly far apart must not make very many more cells than there are points; some more they may be,
-        // because the points of a crack lie along a line.
-        let fitting = (extent[0] * extent[1] / position.len().max(1) as f64).sqrt();
-        let longest = extent[0].max(extent[1]) / (position.len().max(1) as f64);
-        let cell = radius.max(0.1 * fitting).max(longest);
-        let size = extent.map(|length| (length / cell) as usize + 1);
+        let cell = cell_side(extent, position.len(), radius);
+        let size = cells_along(extent, cell);
         let mut grid = Self {
             origin: low,
             cell,
@@ -69,5 +65,54 @@ impl Grid {
             let last = self.start[self.number([columns[1], row]) + 1] as usize;
             self.points[first..last].iter().for_each(|&point| call(point as usize));
         }
+    }
+}
+
+/// Cells a point that a grid may have along both axes: more than one, because the points of a crack lie along a line.
+const CELLS_A_POINT: f64 = 100.0;
+
+/// Points beyond which a grid becomes no finer, so that cells are counted in 32 bits.
+///
+/// With sides as long as [`cell_side`] says there are at most `n` cells along each axis and `CELLS_A_POINT * n` where both
+/// axes count, so `(CELLS_A_POINT + 2) n + 1` in all. In a crystal the search radius makes far fewer.
+const MOST_POINTS: usize = u32::MAX as usize / (CELLS_A_POINT as usize + 3);
+
+/// Side of a cell, nm: the search radius, or more where fragments have flown so far apart that the cells would be very many
+/// more than the points.
+fn cell_side(extent: [f64; 2], points: usize, radius: f64) -> f64 {
+    let points = points.clamp(1, MOST_POINTS) as f64;
+    let fitting = (extent[0] * extent[1] / (CELLS_A_POINT * points)).sqrt();
+    let longest = extent[0].max(extent[1]) / points;
+    radius.max(fitting).max(longest)
+}
+
+fn cells_along(extent: [f64; 2], cell: f64) -> [usize; 2] {
+    extent.map(|length| (length / cell) as usize + 1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_cells_of_any_number_of_points_are_counted_in_32_bits() {
+        // From a crystal to fragments that have left the solar system, in a square and along a line, nm.
+        for extent in [[3e4, 3e4], [1e9, 1e9], [1e25, 1e25], [1e25, 1.0], [1e25, 0.0]] {
+            for points in [1, 1_000_000, MOST_POINTS, 1_000_000_000, u32::MAX as usize] {
+                let [columns, rows] = cells_along(extent, cell_side(extent, points, 0.4));
+                let cells = columns.checked_mul(rows).unwrap();
+                assert!(
+                    cells <= u32::MAX as usize && cells <= 103 * points,
+                    "{cells} cells for {points} points in {extent:?} nm"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_crystal_of_a_billion_atoms_is_searched_in_cells_of_the_search_radius() {
+        let (spacing, radius) = (0.25, 0.4);
+        let side = spacing * (0.75_f64.sqrt() * 1e9).sqrt();
+        assert_eq!(cell_side([side, side], 1_000_000_000, radius), radius);
     }
 }
