@@ -122,6 +122,15 @@ fn a_blow_up_fails_its_case_keeps_what_there_is_and_lets_the_others_run() {
 }
 
 #[test]
+fn a_pull_that_hardly_does_any_work_is_not_ended_by_rounding() {
+    // All its work is less than the last digit of the energy.
+    let slow = STUDY.replace("rate: 1e9 /s", "rate: 1e3 /s");
+    let place = Workspace::with(&slow.replace("until: {strain: 6 %, crack-length: 15 nm}", "until: {time: 10 ps}"));
+    let run = place.cgaft("run", &[]).succeeded();
+    assert_eq!(run.stdout.matches("time ").count(), 3, "{}", run.stdout);
+}
+
+#[test]
 fn a_specimen_that_explodes_between_two_probes_is_stopped_at_once() {
     let seldom = with_time_step("{fraction: 1.0}").replace("every: 0.2 ps", "every: 5.5 ps");
     let place = Workspace::with(&seldom);
