@@ -10,7 +10,7 @@ mod slurm;
 
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
 
 use serde_json::Value;
 use tempfile::TempDir;
@@ -91,11 +91,21 @@ impl Workspace {
 }
 
 fn said(command: &mut Command) -> Said {
-    let output = command.output().unwrap();
-    Said {
-        code: output.status.code(),
-        stdout: String::from_utf8(output.stdout).unwrap(),
-        stderr: String::from_utf8(output.stderr).unwrap(),
+    Said::from(command.output().unwrap())
+}
+
+/// What a program that is at work says until its end.
+fn finished(child: Child) -> Said {
+    Said::from(child.wait_with_output().unwrap())
+}
+
+impl From<Output> for Said {
+    fn from(output: Output) -> Said {
+        Said {
+            code: output.status.code(),
+            stdout: String::from_utf8(output.stdout).unwrap(),
+            stderr: String::from_utf8(output.stderr).unwrap(),
+        }
     }
 }
 
@@ -106,7 +116,12 @@ impl Said {
 
     #[track_caller]
     fn succeeded(self) -> Said {
-        assert_eq!(self.code, Some(0), "{}{}", self.stdout, self.stderr);
+        self.ended_with(0)
+    }
+
+    #[track_caller]
+    fn ended_with(self, code: i32) -> Said {
+        assert_eq!(self.code, Some(code), "{}{}", self.stdout, self.stderr);
         self
     }
 }

@@ -5,7 +5,7 @@ use std::process::{Child, Command};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{Workspace, of_cases};
+use super::{Workspace, finished, of_cases};
 
 /// Long enough for a loaded machine; nothing waits so long when all is well.
 const PATIENCE: Duration = Duration::from_secs(20);
@@ -46,31 +46,26 @@ pub fn checkpoints(place: &Workspace) -> usize {
     runs.filter(|run| run.path().join("checkpoint.h5").exists()).count()
 }
 
+/// Cases that were interrupted.
+fn partial(place: &Workspace) -> usize {
+    let status = place.cgaft(&["study", "status", "slab.yaml", "--json"]).succeeded();
+    let states = of_cases(&status.json(), "state");
+    states.iter().filter(|state| *state == "partial").count()
+}
+
 #[test]
 fn ctrl_c_leaves_checkpoints_and_says_how_to_go_on() {
     for name in ["-INT", "-TERM"] {
         let place = Workspace::new();
         let child = at_work(&place, "FAKE_SLOW");
         signal(&child, name);
-        let output = child.wait_with_output().unwrap();
-        let words = String::from_utf8(output.stdout).unwrap();
-        assert_eq!(output.status.code(), Some(130), "{words}");
+        let words = finished(child).ended_with(130).stdout;
         assert!(
             words.contains("interrupted at step 40 of 100") && words.contains("the same command goes on"),
             "{words}"
         );
         assert_eq!((checkpoints(&place), place.starts().len()), (1, 1));
-        let status = place
-            .cgaft(&["study", "status", "slab.yaml", "--json"])
-            .succeeded()
-            .json();
-        assert_eq!(
-            of_cases(&status, "state")
-                .iter()
-                .filter(|state| *state == "partial")
-                .count(),
-            1
-        );
+        assert_eq!(partial(&place), 1);
 
         let again = place.cgaft(&["study", "run", "slab.yaml"]).succeeded();
         let reason = "runs (interrupted at step 40 of 100 (40 %); goes on from its last checkpoint)";
@@ -98,18 +93,7 @@ fn a_second_ctrl_c_ends_a_solver_that_does_not_listen() {
     // Signals of one kind that arrive together count once.
     thread::sleep(Duration::from_millis(300));
     signal(&child, "-INT");
-    let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(130));
+    finished(child).ended_with(130);
     assert!(start.elapsed() < PATIENCE);
-    let status = place
-        .cgaft(&["study", "status", "slab.yaml", "--json"])
-        .succeeded()
-        .json();
-    assert_eq!(
-        of_cases(&status, "state")
-            .iter()
-            .filter(|state| *state == "partial")
-            .count(),
-        1
-    );
+    assert_eq!(partial(&place), 1);
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::process::Command;
 
 use super::interrupt::{checkpoints, signal, wait_for};
-use super::{STUDY, Said, Workspace, said};
+use super::{STUDY, Said, Workspace, finished, said};
 
 /// A study whose cases ask for ranks, in a folder with an mpirun of its own.
 struct Ranks {
@@ -140,13 +140,7 @@ fn ctrl_c_reaches_the_first_rank_which_leaves_a_checkpoint() {
         .unwrap();
     wait_for("the first rank", || ranks.place.starts().len() == 1);
     signal(&run, "-INT");
-    let output = run.wait_with_output().unwrap();
-    assert_eq!(
-        output.status.code(),
-        Some(130),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    finished(run).ended_with(130);
     assert_eq!(checkpoints(&ranks.place), 1);
     ranks.cgaft("run", &["--only", "A", "--ranks", "5"]).succeeded();
     let log = fs::read_to_string(ranks.place.path("results/slab/cases/A/log.txt")).unwrap();

@@ -3,7 +3,7 @@
 use std::fs;
 use std::time::Instant;
 
-use super::{STUDY, Workspace, of_cases, said};
+use super::{STUDY, Workspace, finished, of_cases, said};
 
 #[test]
 fn a_study_runs_to_its_report_and_a_second_run_does_nothing() {
@@ -157,13 +157,7 @@ fn two_runs_of_one_study_at_once_do_not_harm_each_other() {
     };
     let both = [start().unwrap(), start().unwrap()];
     for child in both {
-        let output = child.wait_with_output().unwrap();
-        assert_eq!(
-            output.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        finished(child).succeeded();
     }
     assert_eq!(place.starts().len(), 3, "each case is computed once");
     let status = place

@@ -9,7 +9,7 @@ use std::os::unix::fs::symlink;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use super::{STUDY, Said, Workspace, of_cases, said};
+use super::{STUDY, Said, Workspace, finished, of_cases, said};
 
 /// A study in a folder with a Slurm of its own.
 struct Cluster {

@@ -5,7 +5,7 @@ use std::process::{Child, Command};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use super::{Cluster, said};
+use super::{Cluster, finished, said};
 
 /// Long enough for a loaded machine; nothing waits so long when all is well.
 const PATIENCE: Duration = Duration::from_secs(30);
@@ -60,9 +60,7 @@ fn jobs_outlive_the_terminal_and_are_found_again() {
         .spawn()
         .unwrap();
     cluster.warn();
-    let output = again.wait_with_output().unwrap();
-    let words = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(output.status.code(), Some(0), "{words}");
+    let words = finished(again).succeeded().stdout;
     assert!(words.contains("A: running as Slurm job 100_0"), "{words}");
     assert_eq!(cluster.asked("submissions").len(), 1, "it was not handed over twice");
 }
@@ -77,13 +75,7 @@ fn a_slurm_that_is_silent_for_a_moment_ends_nothing() {
     thread::sleep(Duration::from_secs(1));
     cluster.warn();
     fs::remove_file(silent).unwrap();
-    let output = run.wait_with_output().unwrap();
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    finished(run).succeeded();
 }
 
 #[test]
@@ -91,13 +83,7 @@ fn two_who_hand_over_one_study_at_once_submit_it_once() {
     let cluster = Cluster::new();
     let start = || cluster.run().env("FAKE_PAUSE", "study:").spawn().unwrap();
     for run in [start(), start()] {
-        let output = run.wait_with_output().unwrap();
-        assert_eq!(
-            output.status.code(),
-            Some(0),
-            "{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        finished(run).succeeded();
     }
     assert_eq!(cluster.asked("submissions").len(), 1);
     assert_eq!(cluster.place.starts().len(), 3);
@@ -143,9 +129,7 @@ fn ctrl_c_cancels_with_a_checkpoint_and_the_next_run_goes_on() {
     let cluster = Cluster::new();
     let run = cluster.watching("FAKE_SLOW");
     signal(&run.id().to_string(), "-INT");
-    let output = run.wait_with_output().unwrap();
-    let words = String::from_utf8(output.stdout).unwrap();
-    assert_eq!(output.status.code(), Some(130), "{words}");
+    let words = finished(run).ended_with(130).stdout;
     assert!(words.contains("A: interrupted at step 40 of 100"), "{words}");
     let again = said(&mut cluster.command("run", &["--on", "slurm", "--only", "A"])).succeeded();
     let reason = "A: runs (interrupted at step 40 of 100 (40 %); goes on from its last checkpoint";
@@ -184,13 +168,7 @@ fn a_case_started_afresh_goes_on_when_it_comes_back_to_the_queue() {
     });
     thread::sleep(Duration::from_millis(300));
     signal(fs::read_to_string(process).unwrap().trim(), "-USR1");
-    let output = run.wait_with_output().unwrap();
-    assert_eq!(
-        output.status.code(),
-        Some(0),
-        "{}",
-        String::from_utf8_lossy(&output.stderr)
-    );
+    finished(run).succeeded();
     assert_eq!(cluster.place.starts().len(), 3);
 }
 
