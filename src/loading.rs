@@ -39,6 +39,8 @@ pub struct Stretching {
 }
 
 impl Stretching {
+    /// Grips that pull at a nominal strain rate, 1/ps; with a `ramp` everything between them starts with its share of
+    /// their speed.
     pub fn new(mesh: &Mesh, rate: f64, grip: Grip, ramp: bool) -> Self {
         let mut nodes = [Vec::new(), Vec::new()];
         for (number, element) in mesh.elements.iter().enumerate() {

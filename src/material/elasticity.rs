@@ -1,7 +1,7 @@
 use super::Material;
 use crate::lattice::triangular;
 
-/// Linear elastic constants of the crystal (2D: force per length).
+/// Linear elastic constants of the crystal (2D: force per length), eV/nm^2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elasticity {
     pub c11: f64,
@@ -43,7 +43,7 @@ impl Elasticity {
     }
 }
 
-/// Speeds of long waves.
+/// Speeds of long waves, nm/ps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct WaveSpeeds {
     pub longitudinal: f64,

@@ -17,7 +17,7 @@ pub enum AtCutoff {
     Smooth { from: f64 },
 }
 
-/// Energy of a pair and phi'(r)/r.
+/// Energy of a pair, eV, and phi'(r)/r, eV/nm^2.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PairValue {
     pub energy: f64,
@@ -38,6 +38,7 @@ pub struct CutPotential<S> {
 }
 
 impl<S: PairShape> CutPotential<S> {
+    /// Zero from the cutoff on, nm.
     pub fn new(shape: S, cutoff: f64, at_cutoff: AtCutoff) -> Self {
         let (energy_at_cutoff, _) = shape.energy_and_slope(cutoff * cutoff);
         let (squared_switch, shift) = match at_cutoff {
@@ -55,10 +56,12 @@ impl<S: PairShape> CutPotential<S> {
         }
     }
 
+    /// nm
     pub fn cutoff(&self) -> f64 {
         self.cutoff
     }
 
+    /// nm^2
     #[inline(always)]
     pub fn squared_cutoff(&self) -> f64 {
         self.squared_cutoff
@@ -209,7 +212,7 @@ impl<S: PairShape> CutPotential<S> {
         }
     }
 
-    /// What one pair's energy jumps by when it comes within the cutoff.
+    /// What one pair's energy jumps by when it comes within the cutoff, eV.
     pub fn jump_at_cutoff(&self) -> f64 {
         match self.at_cutoff {
             AtCutoff::Truncated => self.shape.energy_and_slope(self.squared_cutoff).0,
@@ -217,6 +220,7 @@ impl<S: PairShape> CutPotential<S> {
         }
     }
 
+    /// Distance at which the energy is least, nm.
     pub fn minimum(&self) -> f64 {
         self.shape.minimum()
     }

@@ -3,7 +3,9 @@ use super::PairShape;
 /// phi(r) = stiffness/2 (r - distance)^2 up to the cutoff, where the bond snaps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HarmonicBond {
+    /// eV/nm^2
     pub stiffness: f64,
+    /// nm
     pub distance: f64,
 }
 

@@ -6,7 +6,9 @@ use crate::lanes::Lanes;
 /// phi(r) = 4 epsilon ((sigma/r)^12 - (sigma/r)^6), the source's material in chapters 4 to 6.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LennardJones {
+    /// eV
     pub epsilon: f64,
+    /// nm
     pub sigma: f64,
 }
 

@@ -3,8 +3,11 @@ use super::PairShape;
 /// phi(r) = depth ((1 - exp(-decay (r - distance)))^2 - 1).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Morse {
+    /// eV
     pub depth: f64,
+    /// 1/nm
     pub decay: f64,
+    /// nm
     pub distance: f64,
 }
 

@@ -51,6 +51,7 @@ impl Gauges {
         Self { places, members }
     }
 
+    /// nm from the left edge and from the crack plane.
     pub fn places(&self) -> &[[f64; 2]] {
         &self.places
     }

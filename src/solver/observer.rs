@@ -53,7 +53,9 @@ pub struct Progress {
     pub step: u64,
     /// Steps that the run would take if the crack did not end it.
     pub of: u64,
+    /// ps
     pub time: f64,
+    /// Nominal.
     pub strain: f64,
     /// Distance of the foremost tip from the left edge, nm.
     pub tip: Option<f64>,

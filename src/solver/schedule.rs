@@ -10,6 +10,7 @@ pub struct Schedule {
 }
 
 impl Schedule {
+    /// With the time between two, ps.
     pub fn new(every: f64) -> Self {
         Self {
             every,

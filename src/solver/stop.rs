@@ -74,6 +74,7 @@ impl Watch {
         }
     }
 
+    /// Where the foremost tip is, nm from the left edge, at a time, ps.
     pub fn follow(&mut self, tip: f64, time: f64) {
         if tip > self.farthest {
             self.farthest = tip;
@@ -81,6 +82,7 @@ impl Watch {
         }
     }
 
+    /// nm from the left edge
     pub fn farthest_tip(&self) -> f64 {
         self.farthest
     }
