@@ -3,7 +3,8 @@
 //! ```text
 //! results/<study>/
 //!   cases/<case>            points at the run of that case
-//!   runs/<id>/              published: manifest.json is in it, and it is complete
+//!   runs/<id>/              published: manifest.json is in it, and it is complete; damage.txt tells of a file that was
+//!                           found to have changed since
 //!   runs/<id>.partial/      at work, interrupted or failed
 //!   .locks/<id>             locked while somebody works on the run
 //!   .slurm/                 tickets and output of jobs, which are the business of `executor::slurm`
