@@ -6,23 +6,24 @@ mod expansion;
 mod identity;
 mod name;
 mod range;
+mod scaling;
 mod spelling;
 mod stages;
 mod starter;
 mod sweep;
 mod write;
 
-pub use comparison::{COMPARED, Compared, Comparison, Expected};
+pub use comparison::{COMPARED, Compared, Comparison, Expected, SCALING};
 pub use difference::explain_difference;
-pub use identity::CaseId;
+pub use identity::{CaseId, RunId};
 pub use spelling::spelled;
 pub use stages::Stages;
 pub use starter::starter;
 pub use write::write_case;
 
 use crate::study::{
-    self, CaseFile, Finding, Findings, Given, Place, Refusal, Study, StudyError, Table, case::Case, cluster::Cluster,
-    resolve,
+    self, CaseFile, Finding, Findings, Given, Growth, Place, Refusal, Study, StudyError, Table, case::Case,
+    cluster::Cluster, resolve,
 };
 use std::collections::HashMap;
 
@@ -36,6 +37,8 @@ pub struct Plan {
     pub title: Option<String>,
     /// The case to be shown in pictures, and at which strains.
     pub stages: Option<Stages>,
+    /// Where the cases are to show what ranks gain: what becomes of the specimen meanwhile.
+    pub scaling: Option<Growth>,
     /// What the results are to be compared with.
     pub comparisons: Vec<Comparison>,
     pub cases: Vec<PlannedCase>,
@@ -54,7 +57,8 @@ pub struct PlannedCase {
     pub case: Case,
     /// The tables it was made for. All are always written; no part of its identity.
     pub tables: Vec<Table>,
-    pub id: CaseId,
+    /// Of its run.
+    pub id: RunId,
 }
 
 /// Expand a study into its cases. All mistakes of the file, those of reading it too, come back at once.
@@ -81,7 +85,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
             );
         }
         if let Some(resolved) = resolve(&draft.values, &draft.name, findings) {
-            let id = CaseId::of(&resolved.case);
+            let id = RunId::of(&resolved.case);
             typed.insert(draft.name.clone(), draft.values);
             cases.push(PlannedCase {
                 name: draft.name,
@@ -91,6 +95,8 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
             });
         }
     }
+    let scaling = scaling::resolve(study, &cases, findings);
+    scaling::tell_apart(&mut cases, scaling);
     findings.forget_common_cases(number);
     if !findings.is_empty() {
         return Err(study.error(findings));
@@ -101,6 +107,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         question: text(&content.question),
         title: content.report.right().and_then(|report| text(&report.title)),
         stages,
+        scaling,
         comparisons,
         cases,
         cluster,
@@ -128,6 +135,11 @@ impl Plan {
     /// Its text.
     pub fn source(&self) -> &str {
         &self.read.text
+    }
+
+    /// Whether cases are compared by what computes them, so that each needs the machine for itself.
+    pub fn compares_crews(&self) -> bool {
+        self.cases.iter().any(|case| case.id != RunId::of(&case.case))
     }
 
     /// Refusals of cases, each with the name of its case, told at their places in the study file.

@@ -22,6 +22,7 @@ mod source;
 mod tree;
 
 pub use error::{Mistake, StudyError};
+pub use file::Growth;
 pub(crate) use file::{CaseFile, StudyFile};
 pub(crate) use finding::{Finding, Findings, Place, alternatives, suggestion};
 pub(crate) use named::{Name, Sweep};

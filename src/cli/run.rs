@@ -135,6 +135,7 @@ pub struct Prepared {
 
 /// Every chosen case that is not done, once each.
 pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Result<Prepared, CliError> {
+    refuse_another_crew(survey, arguments.crew)?;
     let mut wanted: Vec<&Entry> = Vec::new();
     for entry in chosen.iter().map(|&position| &survey.entries[position]) {
         let is_done = matches!(entry.state, State::Done(_)) && !arguments.fresh;
@@ -157,8 +158,29 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
     let jobs: Vec<Job> = wanted.into_iter().zip(&estimates).map(job).collect();
     let cores = thread::available_parallelism().map_or(1, usize::from);
     let demands: Vec<Demand> = jobs.iter().map(Job::demand).collect();
-    let share = share(&demands, cores, arguments.crew.jobs.map(usize::from));
+    // Cases side by side would disturb each other's time.
+    let alone = survey.plan.compares_crews().then_some(1);
+    let share = share(&demands, cores, arguments.crew.jobs.map(usize::from).or(alone));
     Ok(Prepared { jobs, share, cores })
+}
+
+/// Where cases are compared by their ranks or threads, one number for all would make them other cases.
+fn refuse_another_crew(survey: &Survey, crew: CrewChoice) -> Result<(), CliError> {
+    let ids = || survey.entries.iter().map(|entry| &entry.planned.id);
+    let said = [
+        ("ranks", crew.ranks.is_some() && ids().any(|id| id.ranks.is_some())),
+        (
+            "threads",
+            crew.threads.is_some() && ids().any(|id| id.threads.is_some()),
+        ),
+    ];
+    match said.into_iter().find(|(_, is_said_twice)| *is_said_twice) {
+        None => Ok(()),
+        Some((what, _)) => Err(CliError::Input(format!(
+            "study {} compares what computes its cases; leave out `--{what}`, and write into the study what its cases shall have",
+            survey.plan.study
+        ))),
+    }
 }
 
 impl Prepared {

@@ -233,5 +233,9 @@ fn changes(store: &Store, planned: &PlannedCase, id: &str) -> Option<String> {
         return None;
     };
     let differences = plan::explain_difference(&manifest.case, &plan::spelled(&planned.case));
-    Some(format!("changed: {}", differences.join(", ")))
+    Some(match differences.is_empty() {
+        // Only what computes it can be another.
+        true => "new: with these ranks and threads".to_owned(),
+        false => format!("changed: {}", differences.join(", ")),
+    })
 }

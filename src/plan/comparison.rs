@@ -1,7 +1,7 @@
 //! `compare`: values from elsewhere to set beside those of the cases.
 //!
 //! A CSV file with a column `case`, and columns of one table of the report. A row of a case that a sweep varies is
-//! meant for all that come of it.
+//! meant for all that come of it. Times of another program on several processors have a column `ranks` instead.
 
 use super::expansion::Draft;
 use crate::study::{Finding, Findings, Place, Study, alternatives, suggestion};
@@ -21,6 +21,7 @@ pub struct Comparison {
 /// One value of it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Expected {
+    /// Name of a case, or a number of ranks.
     pub case: String,
     /// Columns that tell the rows of one case apart, and the words in them.
     pub keys: Vec<(&'static str, String)>,
@@ -31,6 +32,8 @@ pub struct Expected {
 /// A table that can be compared, and its columns.
 pub struct Compared {
     pub table: &'static str,
+    /// Column that tells what a row is of.
+    pub row: &'static str,
     /// Columns that tell the rows of one case apart, and all the words that they may hold.
     pub keys: &'static [(&'static str, &'static [&'static str])],
     pub values: &'static [&'static str],
@@ -47,9 +50,10 @@ impl Compared {
     }
 }
 
-pub const COMPARED: [Compared; 5] = [
+pub const COMPARED: [Compared; 6] = [
     Compared {
         table: "summary",
+        row: CASE,
         keys: &[],
         values: &[
             "nodes",
@@ -73,6 +77,7 @@ pub const COMPARED: [Compared; 5] = [
     },
     Compared {
         table: "wave_arrival",
+        row: CASE,
         keys: &[
             ("wave", &["longitudinal", "transverse", "rayleigh"]),
             ("path", &["left face", "top and bottom faces"]),
@@ -81,23 +86,46 @@ pub const COMPARED: [Compared; 5] = [
     },
     Compared {
         table: "k_ic",
+        row: CASE,
         keys: &[],
         values: &["k_ic_reference_mpa_sqrt_m"],
     },
     Compared {
         table: "first_branch",
+        row: CASE,
         keys: &[],
         values: &["reference_from_ps", "reference_to_ps"],
     },
     Compared {
         table: "speed_against_error",
+        row: CASE,
         keys: &[],
         values: &["core_seconds_per_ps", "peak_memory_mib"],
     },
+    Compared {
+        table: SCALING,
+        row: RANKS,
+        keys: &[],
+        values: &[
+            "elements",
+            "steps",
+            "inp_s",
+            "getm_s",
+            "elist_s",
+            "exc_s_per_step",
+            "solv_s_per_step",
+            "out_s",
+        ],
+    },
 ];
+
+/// The table of what ranks gain.
+pub const SCALING: &str = "scaling";
 
 /// The column that names cases.
 const CASE: &str = "case";
+/// The column of numbers of ranks.
+const RANKS: &str = "ranks";
 
 /// Reads every file that the study compares with; what is wrong goes to `findings`.
 pub fn read(study: &Study, drafts: &[Draft], findings: &Findings) -> Vec<Comparison> {
@@ -191,7 +219,7 @@ impl Sheet<'_> {
     }
 
     fn table(&self, head: &csv::StringRecord) -> Option<&'static Compared> {
-        if !head.iter().any(|column| column == CASE) {
+        if !head.iter().any(|column| column == CASE || column == RANKS) {
             let message = format!("{} has no column `{CASE}`", self.file);
             self.add(
                 message,
@@ -200,10 +228,11 @@ impl Sheet<'_> {
             return None;
         }
         let has = |table: &Compared, column: &str| {
-            column == CASE || table.values.contains(&column) || table.keys.iter().any(|key| key.0 == column)
+            column == table.row || table.values.contains(&column) || table.keys.iter().any(|key| key.0 == column)
         };
         let fits = |table: &&Compared| {
             head.iter().all(|column| has(table, column))
+                && head.iter().any(|column| column == table.row)
                 && head.iter().any(|column| table.values.contains(&column))
                 && table.keys.iter().all(|key| head.iter().any(|column| column == key.0))
         };
@@ -214,7 +243,12 @@ impl Sheet<'_> {
             .iter()
             .filter(|column| COMPARED.iter().all(|table| !has(table, column)));
         let unknown: Vec<&str> = unknown.collect();
-        let values: Vec<&str> = COMPARED.iter().flat_map(|table| table.values).copied().collect();
+        let mut values: Vec<&str> = Vec::new();
+        for value in COMPARED.iter().flat_map(|table| table.values) {
+            if !values.contains(value) {
+                values.push(value);
+            }
+        }
         for column in &unknown {
             self.add(
                 format!("{} has a column `{column}`, which no table has", self.file),
@@ -233,22 +267,9 @@ impl Sheet<'_> {
 
     fn row(&self, table: &'static Compared, cells: &[(&str, &str)], line: u64, values: &mut Vec<Expected>) {
         let cell = |column: &str| cells.iter().find(|cell| cell.0 == column).map_or("", |cell| cell.1);
-        let wanted = cell(CASE);
-        let cases: Vec<&Draft> = self
-            .drafts
-            .iter()
-            .filter(|draft| draft.name == wanted || draft.origin == wanted)
-            .collect();
-        if cases.is_empty() {
-            let mut names: Vec<&str> = self.drafts.iter().map(|draft| draft.origin.as_str()).collect();
-            names.dedup();
-            let message = format!("{}, line {line}: the study has no case `{wanted}`", self.file);
-            self.add(
-                message,
-                format!("its cases are {}", alternatives(&names).replace(" or ", " and ")),
-            );
+        let Some(cases) = self.rows_of(table, cell(table.row), line) else {
             return;
-        }
+        };
         let mut keys = Vec::new();
         for (key, words) in table.keys {
             if !words.contains(&cell(key)) {
@@ -261,7 +282,7 @@ impl Sheet<'_> {
         for column in table.values.iter().copied().filter(|column| !cell(column).is_empty()) {
             match cell(column).parse::<f64>() {
                 Ok(value) if value.is_finite() => values.extend(cases.iter().map(|case| Expected {
-                    case: case.name.clone(),
+                    case: (*case).to_owned(),
                     keys: keys.clone(),
                     column,
                     value,
@@ -274,6 +295,34 @@ impl Sheet<'_> {
                 ),
             }
         }
+    }
+
+    /// The cases that a row is meant for, or the number of ranks that it is of.
+    fn rows_of<'a>(&'a self, table: &Compared, wanted: &'a str, line: u64) -> Option<Vec<&'a str>> {
+        if table.row == RANKS {
+            if wanted.parse::<u32>().is_ok_and(|ranks| ranks > 0) {
+                return Some(vec![wanted]);
+            }
+            let message = format!("{}, line {line}: `{wanted}` is no number of ranks", self.file);
+            self.add(message, "write a whole number of at least 1");
+            return None;
+        }
+        let meant = self
+            .drafts
+            .iter()
+            .filter(|draft| draft.name == wanted || draft.origin == wanted);
+        let cases: Vec<&str> = meant.map(|draft| draft.name.as_str()).collect();
+        if !cases.is_empty() {
+            return Some(cases);
+        }
+        let mut names: Vec<&str> = self.drafts.iter().map(|draft| draft.origin.as_str()).collect();
+        names.dedup();
+        let message = format!("{}, line {line}: the study has no case `{wanted}`", self.file);
+        self.add(
+            message,
+            format!("its cases are {}", alternatives(&names).replace(" or ", " and ")),
+        );
+        None
     }
 
     fn add(&self, message: String, help: impl Into<String>) {

@@ -8,6 +8,16 @@ use std::fmt;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct CaseId(pub u64);
 
+/// Names a run: the case, and what computes it where cases of a study are compared by that.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct RunId {
+    pub case: CaseId,
+    /// `None` where any number will do: results do not depend on it.
+    pub ranks: Option<u32>,
+    /// Of each rank.
+    pub threads: Option<u32>,
+}
+
 /// Raised when the same description comes to mean something else; every case then runs again.
 const CASE_FORMAT: u32 = 1;
 
@@ -20,6 +30,29 @@ impl CaseId {
         let hash = blake3::hash(canonical(&whole).as_bytes());
         let [a, b, c, d, e, f, g, h, ..] = *hash.as_bytes();
         Self(u64::from_be_bytes([a, b, c, d, e, f, g, h]))
+    }
+}
+
+impl RunId {
+    /// The run of a case, whatever computes it.
+    pub fn of(case: &Case) -> Self {
+        Self {
+            case: CaseId::of(case),
+            ranks: None,
+            threads: None,
+        }
+    }
+}
+
+/// `9b1f00c2a4d75e38`; `9b1f00c2a4d75e38-r2-t1` with ranks and threads.
+impl fmt::Display for RunId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}", self.case)?;
+        let crew = [("r", self.ranks), ("t", self.threads)];
+        let known = crew.into_iter().filter_map(|(sign, number)| Some((sign, number?)));
+        known
+            .into_iter()
+            .try_for_each(|(sign, number)| write!(f, "-{sign}{number}"))
     }
 }
 

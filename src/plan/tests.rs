@@ -32,7 +32,7 @@ fn names(cases: &[PlannedCase]) -> Vec<&str> {
 }
 
 fn only_id(text: &str) -> CaseId {
-    planned(text)[0].id
+    planned(text)[0].id.case
 }
 
 #[test]
@@ -168,6 +168,37 @@ fn identity_ignores_how_a_case_is_carried_out_and_what_is_shown_of_it() {
     let otherwise =
         base().replace("run: {", "run: {ranks: 4, threads: 2, checkpoint-every: 1 h, ") + "  observe: [crack]\n";
     assert_eq!(only_id(&otherwise), id);
+}
+
+#[test]
+fn cases_that_differ_in_ranks_or_threads_alone_have_runs_of_their_own() {
+    let id = only_id(&base());
+    let cases = with("sweep:\n  run.ranks: [1, 2]\n");
+    assert_eq!(cases[0].case.specimen, cases[1].case.specimen);
+    let ids: Vec<String> = cases.iter().map(|case| case.id.to_string()).collect();
+    assert_eq!(ids, [format!("{id}-r1"), format!("{id}-r2")]);
+    let cases = with(
+        "cases:\n  A: {run: {threads: 2}}\n  B: {run: {ranks: 2, threads: 2}}\n  C: {}\n  D: {crack: {length: 60 nm}}\n",
+    );
+    let ids: Vec<String> = cases.iter().map(|case| case.id.to_string()).collect();
+    assert_eq!(ids[..3], [format!("{id}-t2"), format!("{id}-r2-t2"), id.to_string()]);
+    assert_eq!(ids[3], cases[3].id.case.to_string(), "nothing is compared with it");
+}
+
+#[test]
+fn cases_that_differ_in_more_or_in_nothing_keep_their_ids() {
+    let cases = with("cases:\n  A: {run: {ranks: 1}}\n  B: {run: {ranks: 2}, crack: {length: 60 nm}}\n");
+    assert!(cases.iter().all(|case| case.id == RunId::of(&case.case)));
+    let cases = with("cases:\n  A: {run: {ranks: 2}}\n  B: {run: {ranks: 2}}\n");
+    assert!(cases.iter().all(|case| case.id == RunId::of(&case.case)));
+}
+
+#[test]
+fn a_study_of_scaling_tells_every_number_of_ranks_apart() {
+    let scaled = "report: {scaling: scaled}\nsweep:\n  zip: {run.ranks: [1, 2], specimen.width: [177 nm, 354 nm]}\n";
+    let ids: Vec<RunId> = with(scaled).iter().map(|case| case.id).collect();
+    assert_ne!(ids[0].case, ids[1].case);
+    assert_eq!(ids.iter().map(|id| id.ranks).collect::<Vec<_>>(), [Some(1), Some(2)]);
 }
 
 #[test]

@@ -36,7 +36,8 @@ pub struct StudyFile {
     pub sweep: Given<Sweep>,
     /// Tables to compare with, each by a name of its own: CSV files in the folder of the study. A column `case` names
     /// cases; the others are named as in the table `summary` (`k_ic_near_tip_mpa_sqrt_m`), or are `wave`, `path` and
-    /// `reference_ps` as in `wave_arrival`. Lines that begin with `#` are comments.
+    /// `reference_ps` as in `wave_arrival`. A column `ranks` in its place is for times of another program, named as in
+    /// `scaling`. Lines that begin with `#` are comments.
     pub compare: Given<Named<String>>,
     pub report: Given<Report>,
     pub cluster: Given<ClusterFile>,
@@ -49,6 +50,29 @@ pub struct Report {
     pub title: Given<String>,
     /// A case to be shown in pictures at strains of interest, and in motion.
     pub stages: Given<Stages>,
+    /// The cases differ in `run.ranks`, to learn what ranks gain: every case has a run of its own, and the report shows
+    /// speedup and efficiency.
+    pub scaling: Given<Growth>,
+}
+
+/// What becomes of the specimen when there are more ranks.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Growth {
+    /// It stays the same, so that each rank gets less of it.
+    Fixed,
+    /// It becomes as many times wider, so that each rank gets as much of it.
+    Scaled,
+}
+
+impl Growth {
+    /// Size of the specimen of so many ranks over that of one.
+    pub fn with(self, ranks: u32) -> f64 {
+        match self {
+            Growth::Fixed => 1.0,
+            Growth::Scaled => f64::from(ranks),
+        }
+    }
 }
 
 /// The pictures nearest to these strains are shown, and all pictures one after the other.

@@ -28,7 +28,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 9] = [
+pub static SHIPPED: [Shipped; 11] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml"),
@@ -45,6 +45,8 @@ pub static SHIPPED: [Shipped; 9] = [
     shipped!("models-A-E-mixed.yaml"),
     shipped!("models-A-E-atoms.yaml"),
     shipped!("branching-control.yaml"),
+    shipped!("scaling-fixed.yaml", "scaling/table-4-2.csv"),
+    shipped!("scaling-scaled.yaml", "scaling/table-4-3.csv"),
 ];
 
 /// Largest file that is read, in bytes; a study of a thousand cases is a hundredth of it.

@@ -6,7 +6,7 @@
 mod shipped;
 
 use cgaft::{
-    plan::{plan, read_case, starter, write_case},
+    plan::{PlannedCase, RunId, plan, read_case, starter, write_case},
     setup,
     study::{self, Mistake, StudyError},
 };
@@ -49,7 +49,7 @@ fn mistakes(path: &Path) -> Vec<Mistake> {
         Ok(plan) => plan,
         Err(error) => return error.mistakes(),
     };
-    let refused = |case: &cgaft::plan::PlannedCase| {
+    let refused = |case: &PlannedCase| {
         setup::Estimator::default()
             .estimate(&case.case)
             .err()
@@ -213,8 +213,12 @@ fn a_written_case_reads_back_to_the_same_bits() {
     for planned in plans.flat_map(|plan| plan.cases) {
         let path = folder.path().join("case.yaml");
         fs::write(&path, write_case(&planned)).unwrap();
-        // It is a study of its own, so that one case can be repeated from its folder alone.
-        assert_eq!(read_case(path.to_str().unwrap()).unwrap().cases, [planned]);
+        // It is a study of its own, so that one case can be repeated from its folder alone; there it has nothing beside it.
+        let id = RunId::of(&planned.case);
+        assert_eq!(
+            read_case(path.to_str().unwrap()).unwrap().cases,
+            [PlannedCase { id, ..planned }]
+        );
     }
 }
 

@@ -65,6 +65,37 @@ fn ranks_are_those_of_the_study_or_of_the_command_and_no_part_of_the_case() {
 }
 
 #[test]
+fn a_sweep_over_ranks_computes_each_number_for_itself_and_is_not_overruled() {
+    let ranks = Ranks::new();
+    ranks
+        .place
+        .write_study(&(STUDY.to_owned() + "sweep:\n  run.ranks: [1, 3]\n"));
+    for command in ["plan", "run"] {
+        let refused = ranks.cgaft(command, &["--ranks", "2"]);
+        assert_eq!(refused.code, Some(2), "{}", refused.stdout);
+        assert!(refused.stderr.contains("leave out `--ranks`"), "{}", refused.stderr);
+    }
+    let run = ranks.cgaft("run", &["--threads", "1"]).succeeded();
+    assert!(run.stdout.contains("6 cases to run, 1 at once"), "{}", run.stdout);
+    let starts = ranks.place.starts();
+    assert_eq!(starts.len(), 6);
+    let [alone, shared]: [Vec<&str>; 2] = ["-r1.partial ", "-r3.partial "].map(|end| {
+        starts
+            .iter()
+            .filter_map(|start| Some(start.split_once(end)?.0))
+            .collect()
+    });
+    assert_eq!((alone.len(), shared.len()), (3, 3), "{starts:?}");
+    assert!(
+        shared.iter().all(|id| alone.contains(id)),
+        "these are runs of the same cases"
+    );
+    assert_eq!(ranks.manifest("B-ranks-3")["ranks"], 3);
+    let again = ranks.cgaft("run", &[]).succeeded();
+    assert_eq!(again.stdout.matches("done (unchanged)").count(), 6, "{}", again.stdout);
+}
+
+#[test]
 fn more_ranks_than_cores_are_told_and_started() {
     let ranks = Ranks::new();
     let run = ranks

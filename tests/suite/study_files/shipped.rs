@@ -72,6 +72,32 @@ fn cases_1_and_2_have_the_elements_of_the_source() {
 }
 
 #[test]
+fn ranks_of_the_fixed_size_share_its_elements_and_those_of_the_scaled_size_have_as_many_each() {
+    let elements = |name: &str| {
+        counts(name)
+            .into_iter()
+            .map(|(_, [_, elements, _])| elements)
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(elements("scaling-fixed.yaml"), [128_160, 128_160]);
+    assert_eq!(elements("scaling-scaled.yaml"), [64_080, 128_160]);
+}
+
+#[test]
+fn what_the_scaling_studies_compare_with_is_tables_4_2_and_4_3() {
+    // [Deng2011] Table 4-2 and [Deng2011] Table 4-3: the first step of their last rows.
+    for (name, solution) in [("scaling-fixed.yaml", 0.110), ("scaling-scaled.yaml", 1.076)] {
+        let plan = plan(&study::read(name).unwrap()).unwrap();
+        let values = &plan.comparisons[0].values;
+        assert_eq!(values.len(), 5 * 8, "{name}");
+        let last = values
+            .iter()
+            .find(|value| value.case == "64" && value.column == "solv_s_per_step");
+        assert_eq!(last.unwrap().value, solution);
+    }
+}
+
+#[test]
 fn a_shipped_study_is_found_by_its_name_alone() {
     let plan = plan(&study::read("quickstart.yaml").unwrap()).unwrap();
     assert_eq!(plan.study, "quickstart");
