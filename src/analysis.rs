@@ -5,6 +5,7 @@ pub mod crack;
 pub mod history;
 pub mod initiation;
 pub mod regression;
+pub mod scaling;
 pub mod series;
 pub mod speed;
 pub mod stress_intensity;

@@ -8,12 +8,14 @@
 mod alone;
 mod cut;
 mod halo;
+mod messages;
 #[cfg(feature = "mpi")]
 mod mpi;
 
 #[cfg(not(feature = "mpi"))]
 pub use alone::{Ranks, Session, library, start};
 pub use halo::Halo;
+pub use messages::MessageCost;
 #[cfg(feature = "mpi")]
 pub use mpi::{Ranks, Session, library, start};
 
@@ -60,6 +62,18 @@ pub enum Call {
     Checkpoint = 8,
 }
 
+/// What falls to the busiest of so many ranks in a step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Burden {
+    pub ranks: u32,
+    /// Its part of all triangles by their cost, or of all atoms where that is more; 1 for one rank.
+    pub work: f64,
+    /// Ranks that it hears from.
+    pub messages: u32,
+    /// What they send it.
+    pub bytes: u64,
+}
+
 /// The part of a specimen that this rank computes, and those of the others.
 #[derive(Clone, Debug)]
 pub struct Domain {
@@ -79,6 +93,12 @@ impl Domain {
     /// Cuts a mesh so that all ranks have equal shares of the costs of its triangles and of those of its atoms.
     pub fn new(ranks: Ranks, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy) -> Self {
         Self::part(ranks, [ranks.rank(), ranks.count()], mesh, cost)
+    }
+
+    /// The parts of all of so many ranks, whoever computes them.
+    pub fn parts(count: usize, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy) -> impl Iterator<Item = Self> {
+        let first = Self::part(Ranks::alone(), [0, count], mesh, cost);
+        (0..count).map(move |rank| Self { rank, ..first.clone() })
     }
 
     /// The part of one of so many ranks.
@@ -126,6 +146,11 @@ impl Domain {
     /// My atoms, counted from 0.
     pub fn atoms(&self) -> Range<usize> {
         self.atoms[self.rank]..self.atoms[self.rank + 1]
+    }
+
+    /// How many parts there are.
+    pub fn count(&self) -> usize {
+        self.triangles.len() - 1
     }
 
     fn triangle_count(&self) -> usize {

@@ -24,6 +24,7 @@ mod tile;
 
 pub use affine::{Affine, site_position};
 pub use measure::Measure;
+pub use share::burdens;
 pub use summation::Summation;
 
 use std::time::Duration;
@@ -121,8 +122,7 @@ impl Forces {
 
     /// The part of this rank in the forces that all ranks compute together.
     pub fn shared(ranks: Ranks, mesh: Mesh, material: Material, summation: Summation) -> Self {
-        let cutoff = material.interaction.cutoff() / material.spacing;
-        let listed = cutoff + Self::LISTED_BEYOND_CUTOFF;
+        let listed = Self::listed(&material);
         let interfaces = Interfaces::new(&mesh, listed);
         let state = |severed: bool| if severed { State::Open } else { State::Tight };
         let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
@@ -170,6 +170,11 @@ impl Forces {
         let severed: Vec<u32> = severed.map(|(number, _)| number).collect();
         forces.watch(&severed);
         forces
+    }
+
+    /// Longest bond in the perfect lattice that is listed with the strings, in spacings.
+    fn listed(material: &Material) -> f64 {
+        material.interaction.cutoff() / material.spacing + Self::LISTED_BEYOND_CUTOFF
     }
 
     pub fn mesh(&self) -> &Mesh {

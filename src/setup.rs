@@ -1,5 +1,6 @@
 //! A resolved case becomes a ready solver, and a run its folder.
 
+mod burden;
 mod census;
 mod error;
 mod estimate;
@@ -7,7 +8,9 @@ pub mod memory;
 mod recorder;
 mod run;
 
+pub use burden::burdens;
 pub use error::SetupError;
+use estimate::refuse_what_does_not_fit;
 pub use estimate::{Estimate, Estimator};
 pub use run::{Finished, RunCaseError, run_case};
 
@@ -145,7 +148,7 @@ pub fn solver(case: &Case) -> Result<Solver, SetupError> {
 pub fn shared_solver(case: &Case, ranks: Ranks) -> Result<Solver, SetupError> {
     let material = material(case)?;
     let plan = mesh_plan(case, &material)?;
-    estimate::refuse_what_does_not_fit(&plan)?;
+    refuse_what_does_not_fit(&plan)?;
     let mesh = Mesh::new(&plan);
     let case::Loading::StrainRate {
         mode: case::Mode::I,

@@ -27,7 +27,7 @@ pub use clean::Leftover;
 pub use cost::Account;
 pub use error::StoreError;
 pub use files::write;
-pub use manifest::{Attempt, ExitState, Failure, Manifest, Outcome, Phase, Program, Reached, host};
+pub use manifest::{Attempt, ExitState, Failure, Manifest, MessageCost, Outcome, Phase, Program, Reached, host};
 pub use state::State;
 
 use std::fs::{self, File};

@@ -249,6 +249,11 @@ fn compute(
         energy_error_relative: finished.energy_error,
         peak_memory_bytes: setup::memory::peak(),
         cost: finished.cost,
+        messages: finished.messages.map(|messages| store::MessageCost {
+            latency_s: messages.latency,
+            seconds_a_byte: messages.a_byte,
+            reduction_s: messages.reduction,
+        }),
     }))
 }
 

@@ -82,6 +82,9 @@ impl Ranks {
         work()
     }
 
+    /// Sends numbers from the first rank to the second and back.
+    pub(super) fn to_and_fro(self, _: &mut [f64]) {}
+
     /// Brings all ranks' parts of a plane to the first.
     pub(super) fn gather(self, _: &mut [f64], _: &[usize]) {}
 

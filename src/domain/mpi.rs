@@ -215,6 +215,20 @@ impl Ranks {
         })
     }
 
+    /// Sends numbers from the first rank to the second and back.
+    pub(super) fn to_and_fro(self, numbers: &mut [f64]) {
+        let world = world_of_all();
+        if self.rank == 0 {
+            let second = world.process_at_rank(1);
+            second.send(&*numbers);
+            second.receive_into(numbers);
+        } else if self.rank == 1 {
+            let first = world.process_at_rank(0);
+            first.receive_into(numbers);
+            first.send(&*numbers);
+        }
+    }
+
     /// Brings all ranks' parts of a plane, which start there, to the first.
     pub(super) fn gather(self, plane: &mut [f64], starts: &[usize]) {
         if self.is_alone() {

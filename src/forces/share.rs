@@ -1,8 +1,10 @@
 //! What falls to each rank, and what it needs of others.
 
 use super::contact::lattice::AtomLattice;
-use super::{Forces, tile};
-use crate::domain::{Domain, Halo};
+use super::{Forces, IntactLimit, tile};
+use crate::domain::{Burden, Domain, Halo};
+use crate::lattice::triangular;
+use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
 
@@ -51,6 +53,45 @@ impl Forces {
     }
 }
 
+/// What falls to the busiest of so many ranks, for several numbers of them, as long as no crack opens the specimen further.
+pub fn burdens(mesh: &Mesh, material: &Material, counts: &[u32]) -> Vec<Burden> {
+    let listed = Forces::listed(material);
+    let interfaces = Interfaces::new(mesh, listed);
+    let limit = IntactLimit::new(material, triangular::next_length(listed));
+    let atoms = AtomLattice::new(mesh, listed, limit.regular);
+    let cost = costs(mesh, &interfaces);
+    let classes = [0..mesh.triangles, mesh.triangles..mesh.elements.len()];
+    let whole = classes.map(|elements| elements.map(cost).sum::<f64>());
+    let burden = |&ranks: &u32| {
+        let idle = Burden {
+            ranks,
+            work: 0.0,
+            messages: 0,
+            bytes: 0,
+        };
+        Domain::parts(ranks as usize, mesh, cost).fold(idle, |most, part| {
+            let shares = part.elements().into_iter().zip(whole);
+            let shares = shares.filter(|(elements, _)| !elements.is_empty());
+            let shares = shares.map(|(elements, whole)| elements.map(cost).sum::<f64>() / whole);
+            let needed = bordering(&part, mesh, &interfaces, &atoms);
+            let nodes = needed
+                .iter()
+                .map(|&element| mesh.elements[element as usize].node_count());
+            let bytes = (2 * size_of::<f64>() * nodes.sum::<usize>()) as u64;
+            let mut peers: Vec<usize> = needed.iter().map(|&element| part.owner(element as usize)).collect();
+            peers.sort_unstable();
+            peers.dedup();
+            Burden {
+                ranks,
+                work: shares.fold(most.work, f64::max),
+                messages: most.messages.max(peers.len() as u32),
+                bytes: most.bytes.max(bytes),
+            }
+        })
+    };
+    counts.iter().map(burden).collect()
+}
+
 /// Estimates what an element costs in a step.
 pub fn costs<'a>(mesh: &'a Mesh, interfaces: &'a Interfaces) -> impl Fn(usize) -> f64 + Copy + use<'a> {
     let exposed = &interfaces.exposed;
@@ -67,7 +108,7 @@ pub fn costs<'a>(mesh: &'a Mesh, interfaces: &'a Interfaces) -> impl Fn(usize) -
 
 /// Others' elements that border mine in the lattice, ascending: neighbours of triangles, and partners of atoms.
 pub fn bordering(domain: &Domain, mesh: &Mesh, interfaces: &Interfaces, atoms: &AtomLattice) -> Vec<u32> {
-    if domain.ranks().count() == 1 {
+    if domain.count() == 1 {
         return Vec::new();
     }
     let mut found = Vec::new();

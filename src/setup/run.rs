@@ -3,14 +3,15 @@
 use std::error::Error;
 use std::path::Path;
 use std::sync::atomic::AtomicBool;
+use std::time::Instant;
 
 use super::recorder::{Recorder, field_mesh};
 use super::{SetupError, shared_solver};
-use crate::domain::Ranks;
+use crate::domain::{MessageCost, Ranks};
 use crate::plan::CaseId;
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
-use crate::solver::{Ending, Progress, RunError, Solver, SolverError};
+use crate::solver::{Ending, Phase as Spent, Progress, RunError, Solver, SolverError};
 use crate::store::{Phase, StoreError};
 use crate::study::case::Case;
 
@@ -24,8 +25,10 @@ pub struct Finished {
     pub stability_limit: f64,
     /// Largest energy imbalance over the largest work; `None` before any work was done.
     pub energy_error: Option<f64>,
-    /// Of all attempts together.
+    /// Of all attempts together; the mesh and the publishing of the last.
     pub cost: Vec<Phase>,
+    /// `None` where there was one rank, and nothing to be sent.
+    pub messages: Option<MessageCost>,
 }
 
 /// More threads than this on every core bring a machine to a halt; it leaves room for tests of many threads.
@@ -80,7 +83,10 @@ fn compute(
     warn: &mut (dyn FnMut(&str) + Send),
 ) -> Result<Finished, RunCaseError> {
     let id = CaseId::of(case).to_string();
+    let start = Instant::now();
     let mut solver = shared_solver(case, ranks)?;
+    let set_up = start.elapsed().as_secs_f64();
+    let mesh = set_up - solver.cost().seconds(Spent::SetUp);
     resume(&mut solver, into, ranks, &id, warn)?;
     let mut recorder = Recorder::new(into, id.clone(), &solver, tell);
     let ended = solver.run(&mut recorder, stop);
@@ -95,19 +101,35 @@ fn compute(
             return Err(RunCaseError::Physics(error, into.display().to_string()));
         }
     };
+    let messages = (ending != Ending::Interrupted).then(|| ranks.message_cost()).flatten();
     let [time_step, stability_limit] = solver.time_step();
-    let finished = Finished {
+    let mut finished = Finished {
         ending,
         steps: solver.step_count(),
         time_step,
         stability_limit,
         energy_error: solver.ledger().relative_error(),
         cost: recorder.total_cost(&solver.cost()),
+        messages,
     };
+    // What the solver has no clock for.
+    finished.cost.push(phase("mesh", mesh));
     if ranks.is_first() && ending != Ending::Interrupted {
+        let start = Instant::now();
         publish(solver, into, &id)?;
+        let seconds = start.elapsed().as_secs_f64();
+        finished.cost.push(phase("publishing", seconds));
     }
     Ok(finished)
+}
+
+/// Something done once.
+fn phase(name: &str, seconds: f64) -> Phase {
+    Phase {
+        name: name.to_owned(),
+        calls: 1,
+        seconds,
+    }
 }
 
 /// Goes back to the folder's checkpoint, and removes what was recorded after it. The first rank decides whether there is

@@ -65,6 +65,10 @@ impl Cost {
         *sum_seconds += seconds;
     }
 
+    pub fn seconds(&self, phase: Phase) -> f64 {
+        self.spent[phase as usize].1
+    }
+
     /// Phase, calls, seconds.
     pub fn rows(&self) -> impl Iterator<Item = (Phase, u64, f64)> + '_ {
         Phase::ALL.into_iter().map(|phase| {

@@ -60,6 +60,19 @@ pub struct Outcome {
     pub peak_memory_bytes: Option<u64>,
     /// Where the time of all attempts went.
     pub cost: Vec<Phase>,
+    /// What messages between its ranks cost; `None` for one rank.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub messages: Option<MessageCost>,
+}
+
+/// Measured at the end of a run.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct MessageCost {
+    /// Of the shortest message between two ranks, s.
+    pub latency_s: f64,
+    pub seconds_a_byte: f64,
+    /// Of a reduction between all ranks, a doubling of their number, s.
+    pub reduction_s: f64,
 }
 
 /// Time spent in one part of the computation.

@@ -1,8 +1,10 @@
 //! The fast sums against the definition.
 
-use cgaft::forces::{Forces, Planes, Summation, referee};
+use cgaft::domain::Burden;
+use cgaft::forces::{Forces, Planes, Summation, burdens, referee};
 use cgaft::material::Material;
-use cgaft::mesh::Mesh;
+use cgaft::mesh::sites::Layout;
+use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::AtCutoff;
 use cgaft::state::State;
 
@@ -232,4 +234,44 @@ fn forces_are_the_same_bits_with_and_without_a_measure_which_does_not_depend_on_
             assert!(measure == anew, "{mesh_name}, {state}");
         }
     }
+}
+
+#[test]
+fn two_ranks_hear_of_a_row_of_triangles_and_an_inner_one_of_a_row_on_either_side() {
+    let material = nearest_neighbours();
+    let mesh = Mesh::new(&Plan {
+        layout: Layout {
+            block: 10,
+            rows: 6,
+            triangles: 9,
+        },
+        element: 10,
+        regions: vec![],
+        crack_length: None,
+        grip_rows: 10,
+        spacing: material.spacing,
+    });
+    let found = burdens(&mesh, &material, &[1, 2, 3]);
+    let alone = Burden {
+        ranks: 1,
+        work: 1.0,
+        messages: 0,
+        bytes: 0,
+    };
+    // Two coordinates of three corners of nine triangles.
+    let row = 9 * 3 * 2 * 8;
+    let half = Burden {
+        ranks: 2,
+        work: 0.5,
+        messages: 1,
+        bytes: row,
+    };
+    assert_eq!(found[..2], [alone, half]);
+    // Surfaces cost more, so that three equal parts are no whole rows.
+    let inner = found[2];
+    assert!(
+        (inner.work - 1.0 / 3.0).abs() < 0.02 && inner.messages == 2,
+        "{inner:?}"
+    );
+    assert!((2 * row..4 * row).contains(&inner.bytes), "{inner:?}");
 }

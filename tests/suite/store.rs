@@ -24,6 +24,7 @@ fn outcome() -> Outcome {
         energy_error_relative: None,
         peak_memory_bytes: None,
         cost: Vec::new(),
+        messages: None,
     }
 }
 

@@ -1,0 +1,54 @@
+//! What messages cost on the machine at hand.
+
+use std::time::Instant;
+
+use super::Ranks;
+
+/// Times of messages and reductions, s.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MessageCost {
+    /// Of the shortest message.
+    pub latency: f64,
+    /// What every byte adds.
+    pub a_byte: f64,
+    /// Of a reduction of one number, a doubling of the ranks.
+    pub reduction: f64,
+}
+
+/// Numbers in a long message: those of a border of some hundred elements.
+const LONG: usize = 16_384;
+/// Messages that are timed; their median counts, because a rank may have to wait for its core.
+const TIMES: usize = 51;
+
+impl Ranks {
+    /// Measures it, which takes milliseconds; all ranks do so together, and only the first learns it. `None` for a rank
+    /// alone.
+    pub fn message_cost(self) -> Option<MessageCost> {
+        if self.count() == 1 {
+            return None;
+        }
+        let mut numbers = vec![0.0; LONG];
+        let [latency, long] = [1, LONG].map(|length| 0.5 * median(|| self.to_and_fro(&mut numbers[..length])));
+        let reduction = median(|| {
+            self.largest(0.0);
+        });
+        Some(MessageCost {
+            latency,
+            a_byte: (long - latency).max(0.0) / (LONG * size_of::<f64>()) as f64,
+            reduction: reduction / (self.count() as f64).log2().ceil(),
+        })
+    }
+}
+
+/// Median time of something that is done several times, s.
+fn median(mut work: impl FnMut()) -> f64 {
+    let mut times: Vec<f64> = (0..TIMES)
+        .map(|_| {
+            let start = Instant::now();
+            work();
+            start.elapsed().as_secs_f64()
+        })
+        .collect();
+    times.sort_by(f64::total_cmp);
+    times[TIMES / 2]
+}
