@@ -7,7 +7,7 @@ MPI_PACKAGES = libopenmpi-dev openmpi-bin $(shell .ci/libclang)
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test verify bench speed-against-error models-A-E check lint schema setup test-setup install
+.PHONY: help quickstart build test verify bench speed-against-error models-A-E scaling check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
@@ -17,6 +17,7 @@ help:
 	@echo 'make bench        what a step, a run and a command cost on this machine, beside LAMMPS; writes docs/performance.md'
 	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
 	@echo 'make models-A-E   models A to E of Deng (2011) at full size; writes reports/models-A-E'
+	@echo 'make scaling      what ranks gain here, and what more of them would; writes reports/scaling-fixed and reports/scaling-scaled'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
 	@echo 'make schema       write schemas/study.schema.json again from the types'
@@ -70,6 +71,17 @@ models-A-E: build
 	cp -r $(TARGET)/results/models-A-E/tables $(TARGET)/results/models-A-E/figures reports/models-A-E
 	rm -f reports/models-A-E/figures/motion.png reports/models-A-E/figures/slab-*.png reports/models-A-E/figures/energy-*.svg reports/models-A-E/tables/stress_strain.csv reports/models-A-E/tables/crack_speed.csv
 	sed '/figures\/slab-/d; /figures\/energy-/d; /figures\/motion/d; /in motion\.\*\*/d' $(TARGET)/results/models-A-E/report.md > reports/models-A-E/report.md
+
+# These runs are there for their times, so nothing else should run meanwhile.
+scaling: build
+	for study in scaling-fixed scaling-scaled; do \
+		made=$(TARGET)/results/$$study && kept=reports/$$study && \
+		$(TARGET)/release/cgaft study run studies/$$study.yaml --fresh --results $(TARGET)/results && \
+		mkdir -p $$kept && rm -rf $$kept/tables $$kept/figures && \
+		cp -r $$made/tables $$made/figures $$kept && \
+		rm -f $$kept/figures/*.png $$kept/tables/stress_*.csv $$kept/tables/crack_speed.csv && \
+		grep -v figures/slab- $$made/report.md > $$kept/report.md || exit 1; \
+	done
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \

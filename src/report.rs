@@ -13,6 +13,7 @@ mod page;
 mod palette;
 mod picture;
 mod precision;
+mod scaling;
 mod slab;
 mod study;
 mod summary;
@@ -21,7 +22,7 @@ mod toughness;
 mod units;
 
 pub use film::Film;
-pub use study::{CaseResult, Failure, Manifest, Phase, Study};
+pub use study::{CaseResult, Failure, Manifest, Phase, Scaling, Study};
 
 use std::fs;
 use std::io::ErrorKind;
@@ -97,11 +98,13 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         fs::create_dir_all(&path).map_err(|source| ReportError::Write { path, source })?;
     }
     remove_old(folder)?;
-    let mut tables = tables::all(&cases, &study.comparisons)?;
+    let scaling = scaling::findings(study, &cases);
+    let mut tables = tables::all(&cases, &study.comparisons, scaling.as_ref())?;
     for table in &mut tables {
         table.write(&folder.join("tables"))?;
     }
-    let charts = figures::charts(&cases, &study.comparisons);
+    let mut charts = scaling.as_ref().map(scaling::charts).unwrap_or_default();
+    charts.extend(figures::charts(&cases, &study.comparisons));
     let mut drawn = Vec::new();
     for chart in &charts {
         let svg = chart.draw()?;
@@ -115,6 +118,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
     let page = page::Page {
         study,
         cases: &cases,
+        scaling: scaling.as_ref(),
         tables: &tables,
         charts: &charts,
         drawn: &drawn,

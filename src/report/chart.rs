@@ -1,5 +1,6 @@
 //! Line charts: what they show, apart from how they are drawn.
 
+pub mod ranks;
 pub mod scatter;
 
 use std::fmt::Display;
@@ -11,6 +12,7 @@ use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
 use super::{ReportError, numbers, palette};
+use ranks::OverRanks;
 use scatter::Scatter;
 
 /// Size of a chart, and units of the drawing a unit of that: coordinates in the file are whole numbers.
@@ -52,6 +54,7 @@ pub struct Chart {
 pub enum Content {
     Curves(Vec<Curve>),
     Points(Scatter),
+    Ranks(OverRanks),
 }
 
 /// One curve; a point without a finite y is a gap.
@@ -82,6 +85,7 @@ impl Chart {
             let drawn = match &self.content {
                 Content::Curves(curves) => self.draw_on(curves, &root),
                 Content::Points(scatter) => scatter.draw_on(&root, [&self.x, &self.y]),
+                Content::Ranks(over_ranks) => over_ranks.draw_on(&root, [&self.x, &self.y]),
             };
             drawn.map_err(|error| failed(&error))?;
             root.present().map_err(|error| failed(&error))?;
@@ -142,6 +146,7 @@ impl Chart {
         let courses = match &self.content {
             Content::Curves(curves) => curves.iter().map(course).collect::<Vec<String>>().join(" "),
             Content::Points(scatter) => scatter.describe(),
+            Content::Ranks(over_ranks) => over_ranks.describe(),
         };
         format!("{} over {}. {courses}", self.y, self.x)
     }

@@ -29,7 +29,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
             curves.retain(|curve| curve.points.iter().any(|point| point.1.is_finite()));
             !curves.is_empty()
         }
-        Content::Points(_) => true,
+        Content::Points(_) | Content::Ranks(_) => true,
     });
     charts
 }
@@ -47,6 +47,7 @@ pub fn is_of_a_report(name: &str) -> bool {
     let id = name.strip_suffix(".svg").unwrap_or_default();
     COMMON.contains(&id)
         || id.starts_with("speed-against-error-")
+        || id.starts_with("scaling-")
         || id.strip_prefix("arrivals-").is_some_and(numbers::is_index)
         || id.strip_prefix("energy-").is_some_and(numbers::is_index)
 }

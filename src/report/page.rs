@@ -4,7 +4,7 @@ use super::chart::{Chart, Drawing};
 use super::picture::{Gallery, Picture};
 use super::summary::{self, Group};
 use super::tables::Table;
-use super::{Analysed, ReportError, Study, agreement, expected, method, numbers};
+use super::{Analysed, ReportError, Study, agreement, expected, method, numbers, scaling};
 use crate::plan::Comparison;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment, Value, context};
@@ -16,6 +16,7 @@ const SHOWN_ROWS: usize = 60;
 pub struct Page<'a> {
     pub study: &'a Study,
     pub cases: &'a [Analysed<'a>],
+    pub scaling: Option<&'a scaling::Findings>,
     pub tables: &'a [Table],
     pub charts: &'a [Chart],
     pub drawn: &'a [Drawing],
@@ -47,10 +48,11 @@ impl Page<'_> {
             name => &self.study.name,
             question => self.study.question.as_ref(),
             text => &self.study.text,
-            verdict => summary::verdict(self.cases),
+            verdict => self.verdict(),
             names => list(self.cases, |case| case.name().into()),
             groups => list(&summary::groups(self.cases), group),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
+            scaling => self.scaling.map(|found| self.scaling(found)),
             comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),
             galleries => list(self.galleries, gallery),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
@@ -65,6 +67,19 @@ impl Page<'_> {
 }
 
 impl Page<'_> {
+    fn verdict(&self) -> String {
+        match self.scaling.and_then(scaling::verdict) {
+            Some(gain) => format!("{} {gain}", summary::done(self.cases)),
+            None => summary::verdict(self.cases),
+        }
+    }
+
+    /// Times, speedup and efficiency over ranks.
+    fn scaling(&self, found: &scaling::Findings) -> Value {
+        let (columns, rows) = scaling::shown(self.tables).unwrap_or_default();
+        context! { columns, rows, notes => list(&scaling::notes(self.study, self.cases, found), pair) }
+    }
+
     /// What comes from elsewhere beside what the cases say.
     fn comparison(&self, comparison: &Comparison) -> Value {
         let lines = expected::lines(comparison, self.tables);

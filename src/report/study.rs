@@ -2,7 +2,9 @@
 
 use super::film::Film;
 use crate::analysis::series::{Series, Setting};
+use crate::domain::{Burden, MessageCost};
 use crate::plan::{Comparison, Stages};
+use crate::study::Growth;
 
 /// A study and the results of its cases, in the order in which they are to be shown.
 #[derive(Clone, Debug, Default)]
@@ -15,9 +17,21 @@ pub struct Study {
     pub text: String,
     /// The case to be shown through time, and at which strains.
     pub stages: Option<Stages>,
+    /// Where the cases are to show what ranks gain.
+    pub scaling: Option<Scaling>,
     /// What the cases are to be compared with.
     pub comparisons: Vec<Comparison>,
     pub cases: Vec<CaseResult>,
+}
+
+/// Cases that differ in their ranks.
+#[derive(Clone, Debug)]
+pub struct Scaling {
+    pub growth: Growth,
+    /// What would fall to the busiest of so many ranks, from one rank on; empty where that cannot be told.
+    pub burdens: Vec<Burden>,
+    /// Times of another program.
+    pub compared: Vec<Comparison>,
 }
 
 /// One case: what was asked for, what came out, or why nothing did.
@@ -37,6 +51,8 @@ pub struct CaseResult {
     /// The pictures that the run took.
     pub film: Option<Film>,
     pub manifest: Manifest,
+    /// Hash of all that it has computed, where runs of one case are compared.
+    pub digest: Option<String>,
     pub failure: Option<Failure>,
 }
 
@@ -66,6 +82,8 @@ pub struct Manifest {
     /// Largest memory of the solver, bytes.
     pub peak_memory: Option<f64>,
     pub cost: Vec<Phase>,
+    /// What messages cost between its ranks.
+    pub messages: Option<MessageCost>,
 }
 
 /// Time spent in one part of the computation.

@@ -52,18 +52,20 @@ pub fn groups(cases: &[Analysed]) -> Vec<Group> {
     groups
 }
 
-/// One sentence or two that answer: did it work, when does the crack start, what does coarseness save and cost?
-pub fn verdict(cases: &[Analysed]) -> String {
+/// `3 of 3 cases done.`
+pub fn done(cases: &[Analysed]) -> String {
     let failed = cases.iter().filter(|case| case.result.failure.is_some()).count();
     let done = cases.iter().filter(|case| case.result.manifest.state == "done").count();
-    let mut sentences = vec![match failed {
-        0 => format!("{done} of {} {} done.", cases.len(), plural(cases.len())),
-        _ => format!(
-            "{done} of {} {} done, {failed} failed.",
-            cases.len(),
-            plural(cases.len())
-        ),
-    }];
+    let (all, cases) = (cases.len(), plural(cases.len()));
+    match failed {
+        0 => format!("{done} of {all} {cases} done."),
+        _ => format!("{done} of {all} {cases} done, {failed} failed."),
+    }
+}
+
+/// One sentence or two that answer: did it work, when does the crack start, what does coarseness save and cost?
+pub fn verdict(cases: &[Analysed]) -> String {
+    let mut sentences = vec![done(cases)];
     sentences.extend(cases.iter().enumerate().filter_map(|(index, reference)| {
         // Each specimen has a case of its own that the others are measured against; one without a crack says nothing.
         let has_crack = !reference.findings.tips.is_empty();

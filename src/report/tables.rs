@@ -8,9 +8,9 @@ use super::ahead::{Ahead, profile_at_initiation};
 use super::numbers::{self, round_significant};
 use super::precision::{self, Quantity};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
-use super::{Analysed, ReportError, branching, expected, save, toughness};
+use super::{Analysed, ReportError, branching, expected, save, scaling, toughness};
 use crate::analysis::waves::{Arrival, Face, Wave};
-use crate::plan::Comparison;
+use crate::plan::{Comparison, SCALING};
 
 /// Digits of a number in a file: more than any of them means, few enough to be read.
 const DIGITS: usize = 9;
@@ -27,7 +27,11 @@ pub struct Table {
 }
 
 /// All tables, in the order in which they are shown.
-pub fn all(cases: &[Analysed], comparisons: &[Comparison]) -> Result<Vec<Table>, ReportError> {
+pub fn all(
+    cases: &[Analysed],
+    comparisons: &[Comparison],
+    scaling: Option<&scaling::Findings>,
+) -> Result<Vec<Table>, ReportError> {
     let own = [
         ("summary", summary(cases)),
         ("crack_speed", crack_speed(cases)),
@@ -50,6 +54,9 @@ pub fn all(cases: &[Analysed], comparisons: &[Comparison]) -> Result<Vec<Table>,
     let mut tables = own.into_iter().map(make).collect::<Result<Vec<_>, _>>()?;
     if !precision.is_empty() {
         tables.push(make(("speed_against_error", speed_against_error(precision)))?);
+    }
+    if let Some(scaling) = scaling {
+        tables.push(make((SCALING, scaling::columns(scaling)))?);
     }
     if !comparisons.is_empty() {
         tables.push(make(("comparison", expected::columns(comparisons, &tables)))?);
@@ -147,7 +154,7 @@ impl<T> Rows<T> {
         Column::new(name.into(), values.collect::<Vec<Option<f64>>>())
     }
 
-    fn count<N: Into<Option<u64>>>(&self, name: &str, of: impl Fn(&T) -> N) -> Column {
+    pub fn count<N: Into<Option<u64>>>(&self, name: &str, of: impl Fn(&T) -> N) -> Column {
         Column::new(
             name.into(),
             self.0.iter().map(|row| of(row).into()).collect::<Vec<Option<u64>>>(),

@@ -9,6 +9,7 @@ mod kill;
 mod quickstart;
 mod ranks;
 mod repeat;
+mod scaling;
 mod threads;
 
 use std::collections::BTreeMap;

@@ -6,6 +6,7 @@ mod figures;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod precision;
+mod scaling;
 mod verdict;
 
 use std::collections::BTreeMap;
@@ -112,7 +113,9 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
             energy_error: Some(1.3e-4),
             peak_memory: Some(3.0e7),
             cost: vec![seconds("force", 0.8), seconds("move", 0.15), seconds("output", 0.05)],
+            messages: None,
         },
+        digest: None,
         failure: None,
     }
 }
@@ -150,6 +153,7 @@ fn three_meshes() -> Study {
         question: Some("How much does a crack notice that the far field is coarse?".to_owned()),
         text: "study: quickstart\nquestion: How much does a crack notice that the far field is coarse?\n".to_owned(),
         stages: None,
+        scaling: None,
         comparisons: Vec::new(),
         cases: vec![
             finished("coarse", 10, 3_300, 0.0242, 1.9),

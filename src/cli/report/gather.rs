@@ -1,27 +1,55 @@
 //! What the store holds, as the report wants it.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
 use crate::analysis::series::{Series, Setting};
 use crate::cli::survey::{Entry, Survey};
-use crate::plan;
-use crate::record::{self, FIELDS_FILE, RecordError, SERIES_FILE};
-use crate::report::{CaseResult, Failure, Film, Manifest, Phase, Study};
+use crate::domain::MessageCost;
+use crate::plan::{self, SCALING};
+use crate::record::{self, CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE};
+use crate::report::{CaseResult, Failure, Film, Manifest, Phase, Scaling, Study};
+use crate::setup;
 use crate::store::{self, Attempt, State};
 
 /// A study with the results of all its cases, also of those that failed or are missing.
 pub fn gather(survey: &Survey) -> Study {
+    let scaling = scaling(survey);
+    let mut comparisons = survey.plan.comparisons.clone();
+    if scaling.is_some() {
+        comparisons.retain(|comparison| comparison.table != SCALING);
+    }
     Study {
         name: survey.plan.study.clone(),
         title: survey.plan.title.clone(),
         question: survey.plan.question.clone(),
         text: survey.plan.source().to_owned(),
         stages: survey.plan.stages.clone(),
-        comparisons: survey.plan.comparisons.clone(),
+        scaling,
+        comparisons,
         cases: survey.entries.iter().map(|entry| case_result(survey, entry)).collect(),
     }
+}
+
+/// The most ranks for which a report predicts.
+const MOST_RANKS: u32 = 512;
+
+/// How the specimen would be cut between up to [`MOST_RANKS`] ranks, which double.
+fn scaling(survey: &Survey) -> Option<Scaling> {
+    let growth = survey.plan.scaling?;
+    let case = &survey.plan.cases.first()?.case;
+    let counts: Vec<u32> = (0..=MOST_RANKS.ilog2()).map(|power| 1 << power).collect();
+    let burdens = setup::burdens(case, case.execution.ranks?, growth, &counts);
+    // Where this machine cannot hold the mesh there is nothing to predict from.
+    let burdens = burdens.unwrap_or_default();
+    let compared = survey.plan.comparisons.iter().cloned();
+    Some(Scaling {
+        growth,
+        burdens,
+        compared: compared.filter(|comparison| comparison.table == SCALING).collect(),
+    })
 }
 
 fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
@@ -41,7 +69,9 @@ fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
     match &entry.state {
         State::Done(done) => {
             result.manifest = manifest(done);
-            match read_run(&survey.store.run_folder(&entry.id)) {
+            let folder = survey.store.run_folder(&entry.id);
+            result.digest = survey.plan.scaling.and_then(|_| digest(&folder));
+            match read_run(&folder) {
                 Ok((setting, series, film)) => {
                     result.setting = Some(setting);
                     result.series = series;
@@ -74,6 +104,15 @@ fn set_kept(result: &mut CaseResult, folder: &Path) {
         // A killed solver leaves segments, which tell nothing of the specimen.
         result.series = record::read_segments(folder).unwrap_or_default();
     }
+}
+
+/// Hash of all that a run has computed, so that runs of one case can be compared; `None` where it cannot be read.
+fn digest(folder: &Path) -> Option<String> {
+    let mut hash = blake3::Hasher::new();
+    for name in [SERIES_FILE, FIELDS_FILE, CHECKPOINT_FILE] {
+        hash.update(&fs::read(folder.join(name)).ok()?);
+    }
+    Some(hash.finalize().to_hex().to_string())
 }
 
 /// What a run has left: setting, series and, if it took any, pictures.
@@ -113,6 +152,11 @@ fn manifest(done: &store::Manifest) -> Manifest {
         energy_error: outcome.energy_error_relative,
         peak_memory: outcome.peak_memory_bytes.map(|bytes| bytes as f64),
         cost: outcome.cost.iter().map(phase).collect(),
+        messages: outcome.messages.map(|messages| MessageCost {
+            latency: messages.latency_s,
+            a_byte: messages.seconds_a_byte,
+            reduction: messages.reduction_s,
+        }),
     }
 }
 

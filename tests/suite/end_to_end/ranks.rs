@@ -15,7 +15,7 @@ const HANGS: &str = "100";
 const SECONDS_TO_END: Duration = Duration::from_secs(20);
 
 /// The solver with MPI, which `cargo test` does not build.
-fn solver_with_mpi() -> PathBuf {
+pub fn solver_with_mpi() -> PathBuf {
     let built = Path::new(env!("CARGO_MANIFEST_DIR")).join("target/mpi/cgaft-solve");
     let solver = std::env::var_os("CGAFT_TEST_MPI_SOLVER").map_or(built, PathBuf::from);
     assert!(

@@ -77,10 +77,12 @@ fn values_from_elsewhere_stand_beside_those_of_the_cases() {
 #[test]
 fn what_can_be_compared_is_in_the_tables() {
     for compared in &COMPARED {
-        let columns = COLUMNS.iter().chain([&super::precision::COLUMNS]);
+        let columns = COLUMNS
+            .iter()
+            .chain([&super::precision::COLUMNS, &super::scaling::COLUMNS]);
         let (_, columns) = columns.into_iter().find(|(table, _)| *table == compared.table).unwrap();
         let columns: Vec<&str> = columns.split(',').collect();
-        let keys = compared.keys.iter().map(|(key, _)| key);
+        let keys = compared.keys.iter().map(|(key, _)| key).chain([&compared.row]);
         assert!(
             keys.chain(compared.values).all(|column| columns.contains(column)),
             "{}",
