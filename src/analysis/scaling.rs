@@ -44,12 +44,20 @@ impl Times {
         self.input + self.map.unwrap_or(0.0) + self.output
     }
 
+    /// A step without what ranks tell each other; one processor has nobody to talk to, and all that it takes is its step.
+    fn solve_alone(&self) -> f64 {
+        match self.ranks {
+            1 => self.solve,
+            _ => self.solve - self.exchange,
+        }
+    }
+
     /// The run on one processor that follows if processors did their part without loss: exact where this is a run on
     /// one. `growth` is how many times larger the specimen is than that of one processor.
     ///
     /// γ is that of `[Deng2011] Eq. (4-2)`, where T_PUT is printed for T_OUT.
     pub fn on_one(&self, growth: f64) -> OneProcessor {
-        let apart = self.lists + self.steps * (self.solve - self.exchange);
+        let apart = self.lists + self.steps * self.solve_alone();
         let serial = self.serial() / growth;
         let total = serial + f64::from(self.ranks) * apart / growth;
         OneProcessor {

@@ -76,8 +76,8 @@ impl Page<'_> {
 
     /// Times, speedup and efficiency over ranks.
     fn scaling(&self, found: &scaling::Findings) -> Value {
-        let (columns, rows) = scaling::shown(self.tables).unwrap_or_default();
-        context! { columns, rows, notes => list(&scaling::notes(self.study, self.cases, found), pair) }
+        let rows: Vec<Vec<String>> = found.rows.iter().map(scaling::cells).collect();
+        context! { columns => scaling::HEADS, rows, notes => list(&scaling::notes(self.study, self.cases, found), pair) }
     }
 
     /// What comes from elsewhere beside what the cases say.

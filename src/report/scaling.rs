@@ -8,12 +8,12 @@ pub use words::{notes, verdict};
 
 use polars::prelude::Column;
 
-use super::numbers::significant;
-use super::tables::{Rows, Table};
+use super::numbers::{ABSENT, count, significant};
+use super::tables::Rows;
 use super::{Analysed, Study};
 use crate::analysis::scaling::{OneProcessor, Times, predicted};
 use crate::domain::MessageCost;
-use crate::plan::{Comparison, SCALING};
+use crate::plan::Comparison;
 
 /// Of what a row tells.
 #[derive(Clone, Debug, PartialEq)]
@@ -190,10 +190,54 @@ pub fn columns(findings: &Findings) -> Vec<Column> {
     ]
 }
 
-/// Head and rows of the table as a person reads them.
-pub fn shown(tables: &[Table]) -> Option<(Vec<String>, Vec<Vec<String>>)> {
-    let table = tables.iter().find(|table| table.name == SCALING)?;
-    Some((table.columns(), table.rows()))
+/// Heads of the table on the page.
+pub const HEADS: [&str; 14] = [
+    "",
+    "ranks",
+    "elements",
+    "N",
+    "INP (s)",
+    "GETM (s)",
+    "ELIST (s)",
+    "EXC (ms)",
+    "SOLV (ms)",
+    "OUT (s)",
+    "total (s)",
+    "speedup",
+    "efficiency",
+    "ideal",
+];
+
+/// A row of the table on the page.
+pub fn cells(row: &Row) -> Vec<String> {
+    let Times {
+        ranks,
+        steps,
+        input,
+        map,
+        lists,
+        exchange,
+        solve,
+        output,
+    } = row.times;
+    let whole = |number: Option<u64>| number.map_or_else(|| ABSENT.to_owned(), count);
+    let mut cells = vec![row.of().to_owned()];
+    cells.extend([Some(u64::from(ranks)), row.elements, Some(steps as u64)].map(whole));
+    let milli = |seconds: f64| Some(1e3 * seconds);
+    let numbers = [
+        Some(input),
+        map,
+        Some(lists),
+        milli(exchange),
+        milli(solve),
+        Some(output),
+        Some(row.times.total()),
+        Some(row.speedup),
+        Some(row.efficiency),
+        Some(row.ideal_speedup),
+    ];
+    cells.extend(numbers.map(|value| value.map_or_else(|| ABSENT.to_owned(), number)));
+    cells
 }
 
 /// A number for a sentence.

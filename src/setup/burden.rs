@@ -13,22 +13,24 @@ const ENOUGH: u32 = 3;
 /// What falls to the busiest rank in a step, for several numbers of ranks. `case` is that of `ranks`; where it grows, its
 /// rows of elements are what ranks get more of, so that three ranks show what any number does.
 pub fn burdens(case: &Case, ranks: u32, growth: Growth, counts: &[u32]) -> Result<Vec<Burden>, SetupError> {
-    match growth {
-        Growth::Fixed => of(case, counts),
-        Growth::Scaled => counts.iter().map(|&count| of_wider(case, ranks, count)).collect(),
+    if growth == Growth::Fixed {
+        return of(case, counts);
     }
-}
-
-fn of_wider(case: &Case, ranks: u32, count: u32) -> Result<Burden, SetupError> {
-    let shown = count.min(ENOUGH);
-    let mut wider = case.clone();
-    wider.specimen.width *= f64::from(shown) / f64::from(ranks);
-    let shown_burden = of(&wider, &[shown])?[0];
-    Ok(Burden {
-        ranks: count,
-        work: shown_burden.work * f64::from(shown) / f64::from(count),
-        ..shown_burden
-    })
+    let of_width = |count: u32| {
+        let mut wider = case.clone();
+        wider.specimen.width *= f64::from(count) / f64::from(ranks);
+        Ok(of(&wider, &[count])?[0])
+    };
+    let shown: Vec<Burden> = (1..=ENOUGH).map(of_width).collect::<Result<_, SetupError>>()?;
+    let of_count = |&count: &u32| {
+        let alike = shown[(count.clamp(1, ENOUGH) - 1) as usize];
+        Burden {
+            ranks: count,
+            work: alike.work * f64::from(alike.ranks) / f64::from(count),
+            ..alike
+        }
+    };
+    Ok(counts.iter().map(of_count).collect())
 }
 
 fn of(case: &Case, counts: &[u32]) -> Result<Vec<Burden>, SetupError> {

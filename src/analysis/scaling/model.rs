@@ -22,7 +22,7 @@ pub fn predicted(one: &Times, growth: f64, burden: &Burden, messages: &MessageCo
         map: one.map.map(|map| growth * map),
         lists: work * one.lists,
         exchange,
-        solve: work * (one.solve - one.exchange) + exchange,
+        solve: work * one.solve_alone() + exchange,
         output: growth * one.output,
     }
 }

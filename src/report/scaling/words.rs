@@ -37,6 +37,7 @@ pub fn notes(study: &Study, cases: &[Analysed], findings: &Findings) -> Vec<(&'s
         ("One processor", Some(one_processor(scaling.growth, findings))),
         ("Misprints", Some(MISPRINTS.to_owned())),
         ("Prediction", prediction(findings)),
+        ("Memory", memory(scaling.growth, cases, findings)),
     ];
     notes
         .into_iter()
@@ -44,12 +45,13 @@ pub fn notes(study: &Study, cases: &[Analysed], findings: &Findings) -> Vec<(&'s
         .collect()
 }
 
-const STEPS: &str = "INP is everything before the first step, the cut of the specimen (the source's GETM) in it; ELIST the \
-     search for neighbours, of which surfaces alone have need; EXC what ranks send each other in a step, and how long they \
-     wait for it; SOLV a step: forces, motion, the bound of the time step and EXC; OUT probes, pictures, checkpoints and the \
-     published files. Times are those of the first rank by the clock on the wall, from the mesh on. The total is INP + GETM + \
-     ELIST + N SOLV + OUT [Deng (2011), Eq. (4-1)], the speedup T(1)/T(P) with T(1) of a specimen as large, the efficiency \
-     the speedup over P [Eq. (4-4)], the ideal speedup 1/(γ + (1 − γ)/P) with γ = (INP + GETM + OUT)/T(1) [Eq. (4-2)].";
+const STEPS: &str = "INP is everything before the first step (mesh, set-up), the cut of the specimen (the source's GETM) in it; \
+     ELIST the search for neighbours, of which surfaces alone have need; EXC what ranks send each other in a step, and how \
+     long they wait for it; SOLV a step: forces, motion, the bound of the time step and EXC; OUT probes, pictures, checkpoints \
+     and the published files. EXC and SOLV are times of a step, the others of the run, all of the first rank by the clock on \
+     the wall. The total is INP + GETM + ELIST + N SOLV + OUT [Deng (2011), Eq. (4-1)], the speedup T(1)/T(P) with T(1) of a \
+     specimen as large, the efficiency the speedup over P [Eq. (4-4)], the ideal speedup 1/(γ + (1 − γ)/P) with γ = (INP + \
+     GETM + OUT)/T(1) [Eq. (4-2)].";
 
 const MISPRINTS: &str = "The source prints Eq. (4-3) with γ − (1 − γ)/P, which is negative for one processor and small γ; \
      Amdahl's law, which is meant, has the sum. In Eq. (4-2) it prints T_PUT for T_OUT.";
@@ -93,8 +95,22 @@ fn one_processor(growth: Growth, findings: &Findings) -> String {
     text
 }
 
+/// What every rank of the largest specimen would hold.
+fn memory(growth: Growth, cases: &[Analysed], findings: &Findings) -> Option<String> {
+    let last = findings.rows.iter().rev().find(|row| row.of == Of::Prediction)?;
+    let one = cases.iter().find(|case| case.result.manifest.ranks == Some(1))?;
+    let bytes = one.result.manifest.peak_memory.filter(|_| growth == Growth::Scaled)?;
+    let ranks = last.times.ranks;
+    Some(format!(
+        "Every rank holds the whole mesh: from {} GB of one rank follow {} GB for each of {ranks}.",
+        number(bytes * 1e-9),
+        number(bytes * 1e-9 * growth.with(ranks))
+    ))
+}
+
 fn prediction(findings: &Findings) -> Option<String> {
-    let messages = findings.messages.filter(|_| findings.one.is_some())?;
+    let messages = findings.messages?;
+    findings.rows.iter().find(|row| row.of == Of::Prediction)?;
     let micro = |seconds: f64| number(seconds * 1e6);
     Some(format!(
         "No run, but SOLV = w SOLV(1) + EXC and EXC = m l + b/B + ⌈log₂ P⌉ r. The work w of the busiest rank, the m ranks that \

@@ -136,6 +136,7 @@ fn speedups_of_a_fixed_size_are_those_of_the_equations_beside_the_prediction_and
             "are the same in every byte",
             "negative for one processor",
             "no row of one processor",
+            "SOLV (ms)",
         ] {
             assert!(page.contains(told), "{file}: {told}");
         }
@@ -157,6 +158,10 @@ fn a_specimen_that_grows_is_worth_as_many_of_one_rank() {
     assert!((number(4, "total_s") / total - 1.0).abs() < DIGITS);
     assert_eq!(table[4]["elements"], "4400");
     let page = text(&folder, "report.md");
+    assert!(
+        page.contains("from 0.0300 GB of one rank follow 0.120 GB for each of 4"),
+        "{page}"
+    );
     assert!(!page.contains("same in every byte"), "these are several specimens");
 }
 

@@ -84,6 +84,21 @@ fn ranks_of_the_fixed_size_share_its_elements_and_those_of_the_scaled_size_have_
 }
 
 #[test]
+fn every_rank_of_the_scaled_size_has_the_work_of_one_and_two_neighbours_at_most() {
+    let plan = plan(&study::read("scaling-scaled.yaml").unwrap()).unwrap();
+    let counts = [1, 2, 3, 512];
+    let found = setup::burdens(&plan.cases[0].case, 1, study::Growth::Scaled, &counts).unwrap();
+    assert_eq!(found.iter().map(|burden| burden.ranks).collect::<Vec<_>>(), counts);
+    let neighbours: Vec<u32> = found.iter().map(|burden| burden.messages).collect();
+    assert_eq!(neighbours, [0, 1, 2, 2]);
+    for burden in &found {
+        // A rank is never farther from its share than an element, of which it has 64,080.
+        assert!((burden.work * f64::from(burden.ranks) - 1.0).abs() < 1e-3, "{burden:?}");
+    }
+    assert_eq!(found[3].bytes, found[2].bytes);
+}
+
+#[test]
 fn what_the_scaling_studies_compare_with_is_tables_4_2_and_4_3() {
     // [Deng2011] Table 4-2 and [Deng2011] Table 4-3: the first step of their last rows.
     for (name, solution) in [("scaling-fixed.yaml", 0.110), ("scaling-scaled.yaml", 1.076)] {
