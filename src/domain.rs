@@ -11,10 +11,11 @@ mod halo;
 mod messages;
 #[cfg(feature = "mpi")]
 mod mpi;
+mod sums;
 
 #[cfg(not(feature = "mpi"))]
 pub use alone::{Ranks, Session, library, start};
-pub use halo::Halo;
+pub use halo::{Halo, Of};
 pub use messages::MessageCost;
 #[cfg(feature = "mpi")]
 pub use mpi::{Ranks, Session, library, start};
@@ -210,9 +211,14 @@ impl Domain {
 
     /// Brings the numbers of all nodes to the first rank, each from the rank that computes it.
     pub fn gather_nodes(&self, plane: &mut [f64]) {
-        let (of_triangles, of_atoms) = plane.split_at_mut(3 * self.triangle_count());
+        let of_triangles = &mut plane[..3 * self.triangle_count()];
         self.ranks.gather(of_triangles, &self.starts_of_triangle_nodes());
-        self.ranks.gather(of_atoms, &self.atoms);
+        self.gather_atoms(plane);
+    }
+
+    /// The same of the atoms alone.
+    pub fn gather_atoms(&self, plane: &mut [f64]) {
+        self.ranks.gather(&mut plane[3 * self.triangle_count()..], &self.atoms);
     }
 
     /// Brings the numbers of all nodes to all ranks, each from the rank that computes it.

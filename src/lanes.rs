@@ -2,7 +2,7 @@
 //!
 //! Lanes never mix and multiply-adds round once on every processor, so results have the same bits whatever the width.
 
-use std::ops::{Add, Mul, Sub};
+use std::ops::{Add, Mul, Range, Sub};
 
 use pulp::Simd;
 use rayon::prelude::*;
@@ -112,25 +112,34 @@ impl<S: Simd> Lanes<S> {
 /// The most lanes any processor has.
 pub const MOST: usize = 8;
 
-/// Terms of a sum that one thread adds.
-const BLOCK: usize = 4096;
+/// Terms of a sum that are added before any others join them.
+pub const BLOCK: usize = 4096;
 
-/// The sum of so many terms in an order that only their number sets: as many sums side by side as there may be lanes in
-/// every block, then block by block.
-pub fn sum(count: usize, term: impl Fn(usize) -> f64 + Sync) -> f64 {
-    let of_block = |block: usize| {
-        let mut sums = [0.0; MOST];
-        let end = count.min((block + 1) * BLOCK);
-        let mut at = block * BLOCK;
-        while at + MOST <= end {
-            (0..MOST).for_each(|lane| sums[lane] += term(at + lane));
-            at += MOST;
-        }
-        (at..end).for_each(|k| sums[k - at] += term(k));
-        sums.iter().sum::<f64>()
-    };
-    let blocks: Vec<f64> = (0..count.div_ceil(BLOCK)).into_par_iter().map(of_block).collect();
-    blocks.into_iter().sum()
+/// Some sums of so many terms in an order that only their number sets: block by block.
+pub fn sums<const N: usize>(count: usize, term: impl Fn(usize) -> [f64; N] + Sync) -> [f64; N] {
+    let starts = (0..count).into_par_iter().step_by(BLOCK);
+    let blocks: Vec<[f64; N]> = starts
+        .map(|start| block_sums(start..count.min(start + BLOCK), &term))
+        .collect();
+    in_order(&blocks)
+}
+
+/// The sums of one block: as many side by side as there may be lanes.
+pub fn block_sums<const N: usize>(block: Range<usize>, term: impl Fn(usize) -> [f64; N]) -> [f64; N] {
+    let mut sums = [[0.0; MOST]; N];
+    let mut add = |lane: usize, terms: [f64; N]| (0..N).for_each(|k| sums[k][lane] += terms[k]);
+    let mut at = block.start;
+    while at + MOST <= block.end {
+        (0..MOST).for_each(|lane| add(lane, term(at + lane)));
+        at += MOST;
+    }
+    (at..block.end).for_each(|k| add(k - at, term(k)));
+    sums.map(|lanes| lanes.iter().sum())
+}
+
+/// The sums of blocks that follow each other.
+pub fn in_order<const N: usize>(blocks: &[[f64; N]]) -> [f64; N] {
+    std::array::from_fn(|k| blocks.iter().map(|sums| sums[k]).sum())
 }
 
 impl<S: Simd> Mask<S> {
@@ -219,13 +228,13 @@ mod tests {
     fn a_sum_takes_every_term_once_and_has_the_same_bits_on_any_number_of_threads() {
         for count in [0, 1, MOST, BLOCK - 3, BLOCK, 3 * BLOCK + MOST + 5] {
             let whole = (count * count.saturating_sub(1) / 2) as f64;
-            assert_eq!(sum(count, |k| k as f64), whole);
+            assert_eq!(sums(count, |k| [k as f64]), [whole]);
             let on = |threads: usize| {
                 let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
                 pool.expect("threads can be started")
-                    .install(|| sum(count, |k| (k as f64).sqrt()))
+                    .install(|| sums(count, |k| [(k as f64).sqrt()]))
             };
-            assert_eq!(on(1).to_bits(), on(3).to_bits());
+            assert_eq!(on(1).map(f64::to_bits), on(3).map(f64::to_bits));
         }
     }
 }

@@ -91,6 +91,12 @@ impl Mesh {
         }
     }
 
+    /// The element that a node belongs to.
+    pub fn element_of_node(&self, node: usize) -> usize {
+        node.checked_sub(3 * self.triangles)
+            .map_or(node / 3, |atom| self.triangles + atom)
+    }
+
     /// Reference position of a site, nm, in lattice coordinates.
     pub fn reference(&self, site: [i32; 2]) -> [f64; 2] {
         triangular::position(site).map(|component| component * self.spacing)

@@ -12,6 +12,7 @@ mod probe;
 mod resume;
 mod schedule;
 mod setting;
+mod sight;
 mod step;
 mod stop;
 mod temperature;
@@ -43,6 +44,7 @@ use gauges::Gauges;
 use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
 use schedule::Schedule;
+use sight::Sight;
 use temperature::Thermometer;
 use traction::Traction;
 
@@ -79,6 +81,7 @@ pub struct Solver {
     gauges: Gauges,
     thermometer: Thermometer,
     j_integral: JIntegral,
+    sight: Sight,
     step: u64,
     time: f64,
     time_step: f64,
@@ -87,10 +90,6 @@ pub struct Solver {
     /// Half a kick that the velocities still lack, ps.
     due_kick: Option<f64>,
     grip_impulse: Impulse,
-    /// Of all ranks, at the last observation.
-    grip_impulses: Vec<f64>,
-    /// What sponges had taken at the last look, eV.
-    absorbed: f64,
     measure: Measure,
     /// Whether the measure is that of the present state.
     measured: bool,
@@ -137,17 +136,18 @@ impl Solver {
         let gauges = Gauges::new(&mesh, &setting);
         let thermometer = Thermometer::new(&mesh);
         let j_integral = JIntegral::new(&mesh, material);
+        let sight = Sight::new(&mesh, &loading, &profile, &traction, &gauges);
         let tracker = Tracker::new(&setting);
         let mut forces = Forces::shared(ranks, mesh, material, settings.summation);
         let mut measure = Measure::default();
         forces
             .compute_and_measure(&mut state.position, &mut state.force, &mut measure)
             .map_err(SolverError::NoStart)?;
-        measure.gather(forces.domain());
+        let stored = [measure.energy(forces.domain()), measure.pairs(forces.domain())];
         let stability_limit = time_step::limit(&forces, &state);
         let time_step = settings.time_step.choose(stability_limit)?;
         let jump = material.interaction.jump_at_cutoff();
-        let ledger = Ledger::new(&measure, state.kinetic_energy(), jump);
+        let ledger = Ledger::new(stored, state.kinetic_energy(), jump);
         let grip_impulse = Impulse::new(&loading, &forces.domain().nodes());
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
@@ -166,14 +166,13 @@ impl Solver {
             gauges,
             thermometer,
             j_integral,
+            sight,
             step: 0,
             time: 0.0,
             time_step,
             stability_limit,
             due_kick: None,
             grip_impulse,
-            grip_impulses: Vec::new(),
-            absorbed: 0.0,
             measure,
             measured: true,
             ledger,
@@ -281,8 +280,9 @@ impl Solver {
         self.refuse_a_crack_that_ran()?;
         self.loading.start(self.forces.mesh(), &mut self.state);
         self.compute(true).map_err(SolverError::NoStart)?;
-        self.measure.gather(self.forces.domain());
-        self.ledger.begin(&self.measure, self.state.kinetic_energy());
+        let domain = self.forces.domain();
+        let stored = [self.measure.energy(domain), self.measure.pairs(domain)];
+        self.ledger.begin(stored, self.state.kinetic_energy());
         self.stability_limit = time_step::limit(&self.forces, &self.state);
         self.time_step = self.settings.time_step.choose(self.stability_limit)?;
         self.cost.book(Phase::SetUp, &mut clock);

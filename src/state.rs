@@ -58,24 +58,22 @@ impl State {
 
     /// Kinetic energy, v^T M v/2, eV.
     pub fn kinetic_energy(&self) -> f64 {
-        let [x, y] = &self.velocity;
-        let squared = lanes::sum(self.nodes(), |node| {
-            self.mass[node] * (x[node] * x[node] + y[node] * y[node])
-        });
-        0.5 * (squared + self.coupled_part())
+        let [energy] = lanes::sums(self.nodes(), |node| [self.kinetic_energy_of(node)]);
+        energy
     }
 
-    /// What coupling adds to v^T M v: c m ((sum v)^2 - 3 sum v^2) for every triangle.
-    fn coupled_part(&self) -> f64 {
-        let of_triangle = |(triangle, share): (usize, &f64)| {
-            let nodes = 3 * triangle..3 * triangle + 3;
-            let planes = self.velocity.iter().map(|plane| {
-                let speeds = &plane[nodes.clone()];
-                let sum: f64 = speeds.iter().sum();
-                sum * sum - 3.0 * speeds.iter().map(|v| v * v).sum::<f64>()
+    /// The part of a node: with coupled masses c m (sum v)^2, which the nodes of a triangle share, is c m v (sum v) of each.
+    pub fn kinetic_energy_of(&self, node: usize) -> f64 {
+        let triangle = node / 3;
+        let share = self.coupling.get(triangle);
+        let squared = self.velocity.iter().map(|plane| {
+            let speed = plane[node];
+            let coupled = share.map_or(0.0, |share| {
+                let sum: f64 = plane[3 * triangle..3 * triangle + 3].iter().sum();
+                share * (sum - 3.0 * speed)
             });
-            share * self.mass[nodes.start] * planes.sum::<f64>()
-        };
-        self.coupling.iter().enumerate().map(of_triangle).sum()
+            speed * (speed + coupled)
+        });
+        0.5 * self.mass[node] * squared.sum::<f64>()
     }
 }

@@ -37,6 +37,11 @@ impl Ranks {
         1
     }
 
+    /// How many of them are on this machine.
+    pub fn here(self) -> u32 {
+        1
+    }
+
     /// Whether this rank speaks and writes.
     pub fn is_first(self) -> bool {
         true
@@ -64,7 +69,7 @@ impl Ranks {
     pub fn follow_first(self, _: &mut [f64]) {}
 
     /// What all ranks have, one after the other.
-    pub fn join(self, mine: Vec<u32>) -> Vec<u32> {
+    pub fn join<T>(self, mine: Vec<T>) -> Vec<T> {
         mine
     }
 

@@ -1,15 +1,17 @@
-//! The nodes of other ranks that a rank's forces depend on, and its own that others depend on.
+//! What a rank must know of elements that others compute, and others of its own.
 
 use std::ops::Range;
 
 use super::Domain;
 
-/// Which positions travel between which ranks in every step.
+/// Which elements some ranks know beside their own, and the parcels in which others tell them of these.
+///
+/// In every step those travel that a rank's forces depend on, in each probe those that the first rank reads.
 #[derive(Debug, Default)]
 pub struct Halo {
     outgoing: Vec<Parcel>,
     incoming: Vec<Parcel>,
-    /// Elements of others whose positions arrive, ascending and all triangles or all atoms in each range.
+    /// Elements of others of which it is told, ascending and all triangles or all atoms in each range.
     elements: Vec<Range<usize>>,
 }
 
@@ -19,9 +21,18 @@ pub struct Parcel {
     /// The other rank.
     #[cfg_attr(not(feature = "mpi"), expect(dead_code, reason = "without MPI there are no others"))]
     pub peer: usize,
+    /// None with triangles and atoms.
+    elements: Vec<Range<usize>>,
     nodes: Vec<Range<usize>>,
-    /// x of the nodes, then y.
+    /// Those of one plane after those of the other.
     pub numbers: Vec<f64>,
+}
+
+/// Whose numbers travel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Of {
+    Nodes,
+    Elements,
 }
 
 impl Halo {
@@ -60,44 +71,74 @@ impl Halo {
         position: &mut [Vec<f64>; 2],
         work: impl FnOnce(&[Vec<f64>; 2]) -> T,
     ) -> T {
-        self.outgoing.iter_mut().for_each(|parcel| parcel.pack(position));
+        self.pack(Of::Nodes, position.each_ref().map(Vec::as_slice));
         let done = domain
             .ranks
             .exchange(&self.outgoing, &mut self.incoming, || work(position));
-        self.incoming.iter().for_each(|parcel| parcel.unpack(position));
+        self.unpack(Of::Nodes, position.each_mut().map(Vec::as_mut_slice));
         done
+    }
+
+    /// Brings numbers of others' nodes or elements up to date. All ranks must call this together.
+    pub fn bring<const N: usize>(&mut self, domain: &Domain, of: Of, planes: [&mut [f64]; N]) {
+        self.pack(of, planes.each_ref().map(|plane| &**plane));
+        domain.ranks.exchange(&self.outgoing, &mut self.incoming, || ());
+        self.unpack(of, planes);
+    }
+
+    fn pack<const N: usize>(&mut self, of: Of, planes: [&[f64]; N]) {
+        self.outgoing.iter_mut().for_each(|parcel| parcel.pack(of, planes));
+        self.incoming.iter_mut().for_each(|parcel| parcel.make_room::<N>(of));
+    }
+
+    fn unpack<const N: usize>(&self, of: Of, mut planes: [&mut [f64]; N]) {
+        self.incoming.iter().for_each(|parcel| parcel.unpack(of, &mut planes));
     }
 }
 
 impl Parcel {
     fn new(domain: &Domain, peer: usize, elements: &[u32]) -> Self {
-        let nodes: Vec<Range<usize>> = ranges(domain, elements)
-            .into_iter()
-            .map(|elements| domain.nodes_of(elements))
-            .collect();
-        let count: usize = nodes.iter().map(Range::len).sum();
+        let elements = ranges(domain, elements);
         Self {
             peer,
-            nodes,
-            numbers: vec![0.0; 2 * count],
+            nodes: elements
+                .iter()
+                .map(|elements| domain.nodes_of(elements.clone()))
+                .collect(),
+            elements,
+            numbers: Vec::new(),
         }
     }
 
-    fn pack(&mut self, position: &[Vec<f64>; 2]) {
-        self.numbers.clear();
-        for plane in position {
-            for nodes in &self.nodes {
-                self.numbers.extend_from_slice(&plane[nodes.clone()]);
+    fn places(&self, of: Of) -> &[Range<usize>] {
+        match of {
+            Of::Nodes => &self.nodes,
+            Of::Elements => &self.elements,
+        }
+    }
+
+    fn pack<const N: usize>(&mut self, of: Of, planes: [&[f64]; N]) {
+        let mut numbers = std::mem::take(&mut self.numbers);
+        numbers.clear();
+        for plane in planes {
+            for place in self.places(of) {
+                numbers.extend_from_slice(&plane[place.clone()]);
             }
         }
+        self.numbers = numbers;
     }
 
-    fn unpack(&self, position: &mut [Vec<f64>; 2]) {
+    fn make_room<const N: usize>(&mut self, of: Of) {
+        let places: usize = self.places(of).iter().map(Range::len).sum();
+        self.numbers.resize(N * places, 0.0);
+    }
+
+    fn unpack<const N: usize>(&self, of: Of, planes: &mut [&mut [f64]; N]) {
         let mut rest = self.numbers.as_slice();
-        for plane in position {
-            for nodes in &self.nodes {
-                let (numbers, others) = rest.split_at(nodes.len());
-                plane[nodes.clone()].copy_from_slice(numbers);
+        for plane in planes {
+            for place in self.places(of) {
+                let (numbers, others) = rest.split_at(place.len());
+                plane[place.clone()].copy_from_slice(numbers);
                 rest = others;
             }
         }
@@ -130,21 +171,27 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parcels_carry_positions_to_the_same_places() {
-        let nodes = vec![3..9, 30..31];
+    fn parcels_carry_numbers_of_nodes_and_elements_to_the_same_places() {
+        let places = [vec![3..9, 30..31], vec![1..3]];
         let mut parcel = Parcel {
             peer: 1,
-            nodes: nodes.clone(),
+            nodes: places[0].clone(),
+            elements: places[1].clone(),
             numbers: Vec::new(),
         };
         let here = [0, 1000].map(|start| (start..start + 40).map(f64::from).collect::<Vec<_>>());
-        let mut there = here.clone().map(|plane| vec![0.0; plane.len()]);
-        parcel.pack(&here);
-        parcel.unpack(&mut there);
-        for axis in 0..2 {
-            for node in 0..40 {
-                let carried = nodes.iter().any(|range| range.contains(&node));
-                assert_eq!(there[axis][node], if carried { here[axis][node] } else { 0.0 });
+        for (of, places) in [Of::Nodes, Of::Elements].into_iter().zip(places) {
+            let mut there = here.clone().map(|plane| vec![0.0; plane.len()]);
+            parcel.pack(of, here.each_ref().map(Vec::as_slice));
+            let packed = parcel.numbers.len();
+            parcel.make_room::<2>(of);
+            assert_eq!(parcel.numbers.len(), packed);
+            parcel.unpack(of, &mut there.each_mut().map(Vec::as_mut_slice));
+            for axis in 0..2 {
+                for place in 0..40 {
+                    let carried = places.iter().any(|range| range.contains(&place));
+                    assert_eq!(there[axis][place], if carried { here[axis][place] } else { 0.0 });
+                }
             }
         }
     }

@@ -15,6 +15,7 @@ use super::{DomainError, mpirun_ranks};
 pub struct Ranks {
     rank: usize,
     count: usize,
+    here: u32,
 }
 
 /// What lasts as long as ranks can talk.
@@ -37,6 +38,7 @@ pub fn start() -> Result<(Ranks, Session), DomainError> {
     let ranks = Ranks {
         rank: world.rank() as usize,
         count: world.size() as usize,
+        here: world.split_shared(0).size() as u32,
     };
     match mpirun_ranks() {
         Some(started) if started > 1 && ranks.count == 1 => {
@@ -87,7 +89,11 @@ fn world_of_all() -> SimpleCommunicator {
 impl Ranks {
     /// Only this process, whoever else there is.
     pub fn alone() -> Self {
-        Self { rank: 0, count: 1 }
+        Self {
+            rank: 0,
+            count: 1,
+            here: 1,
+        }
     }
 
     pub fn rank(self) -> usize {
@@ -96,6 +102,11 @@ impl Ranks {
 
     pub fn count(self) -> usize {
         self.count
+    }
+
+    /// How many of them are on this machine.
+    pub fn here(self) -> u32 {
+        self.here
     }
 
     /// Whether this rank speaks and writes.
@@ -149,14 +160,14 @@ impl Ranks {
     }
 
     /// What all ranks have, one after the other.
-    pub fn join(self, mine: Vec<u32>) -> Vec<u32> {
+    pub fn join<T: Equivalence + Copy + Default>(self, mine: Vec<T>) -> Vec<T> {
         if self.is_alone() {
             return mine;
         }
         let mut counts = vec![0; self.count];
         world_of_all().all_gather_into(&(mine.len() as Count), &mut counts);
         let starts = starts(&counts);
-        let mut all = vec![0; total(&counts)];
+        let mut all = vec![T::default(); total(&counts)];
         world_of_all().all_gather_varcount_into(&mine[..], &mut PartitionMut::new(&mut all[..], counts, starts));
         all
     }

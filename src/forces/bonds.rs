@@ -10,14 +10,18 @@ impl Forces {
     /// Nearest-neighbour bonds between different elements that are stretched beyond the breaking length, as
     /// (column, row, direction) by rising row and column. Bonds that the cut severed are not among them.
     ///
-    /// An intact interface keeps all its bonds, and what happens inside a triangle is deformation, not a crack.
+    /// An intact interface keeps all its bonds, and what happens inside a triangle is deformation, not a crack. Each rank
+    /// looks at its own elements; all must call this together, and get the bonds of all.
     pub fn broken_bonds(&self, position: &Planes) -> Vec<[i32; 3]> {
-        let candidates = self.elements_that_meet_others();
-        let mut broken: Vec<[i32; 3]> = candidates
+        let mut candidates = self.elements_that_meet_others();
+        candidates.retain(|&element| self.domain.is_mine(element as usize));
+        let mine: Vec<[i32; 3]> = candidates
             .par_iter()
             .with_min_len(CHUNK)
             .flat_map_iter(|&element| self.broken_bonds_of(element as usize, position))
             .collect();
+        let all = self.domain.ranks().join(mine.into_flattened());
+        let mut broken = all.as_chunks().0.to_vec();
         broken.par_sort_unstable_by_key(|&[column, row, direction]| [row, column, direction]);
         broken
     }

@@ -1,13 +1,11 @@
 //! What bonds hold beside the forces that they exert: energy, their number and the virial. All of it is a by-product of
 //! the forces.
 
-use std::ops::Range;
-
 use pulp::Simd;
 
 use super::{ForceError, Forces, Planes};
-use crate::domain::Domain;
-use crate::lanes::{self, Lanes};
+use crate::domain::{Domain, Halo, Of};
+use crate::lanes::Lanes;
 use crate::potential::{CutPotential, PairShape};
 
 /// What every element holds at one moment: all of the bonds inside it, half of those it shares.
@@ -20,14 +18,16 @@ pub struct Measure {
 pub(super) const PARTS: usize = 5;
 
 impl Measure {
-    /// Potential energy of the whole specimen, eV.
-    pub fn energy(&self) -> f64 {
-        lanes::sum(self.planes[0].len(), |element| self.planes[0][element])
+    /// Potential energy of the whole specimen, eV. All ranks must call this together.
+    pub fn energy(&self, domain: &Domain) -> f64 {
+        let [energy] = domain.sum_elements(|element| [self.planes[0][element]]);
+        energy
     }
 
-    /// Number of pairs within the cutoff in the whole specimen.
-    pub fn pairs(&self) -> f64 {
-        lanes::sum(self.planes[1].len(), |element| self.planes[1][element])
+    /// Number of pairs within the cutoff in the whole specimen. All ranks must call this together.
+    pub fn pairs(&self, domain: &Domain) -> f64 {
+        let [pairs] = domain.sum_elements(|element| [self.planes[1][element]]);
+        pairs
     }
 
     /// The sum over the bonds of an element of phi'/r d d, components xx, yy, xy, eV.
@@ -36,17 +36,15 @@ impl Measure {
         [2, 3, 4].map(|part| self.planes[part][element])
     }
 
-    /// The same over consecutive elements.
-    pub fn virial_of(&self, elements: Range<usize>) -> [f64; 3] {
-        [2, 3, 4].map(|part| {
-            let plane = &self.planes[part][elements.clone()];
-            lanes::sum(plane.len(), |element| plane[element])
-        })
-    }
-
     /// Brings what all elements hold to the first rank.
     pub fn gather(&mut self, domain: &Domain) {
         self.planes.iter_mut().for_each(|plane| domain.gather_elements(plane));
+    }
+
+    /// Brings to a rank what the elements hold that it has asked for.
+    pub fn bring(&mut self, parcels: &mut Halo, domain: &Domain) {
+        let planes = self.planes.each_mut().map(Vec::as_mut_slice);
+        parcels.bring(domain, Of::Elements, planes);
     }
 
     /// Makes room for so many elements.

@@ -106,7 +106,8 @@ pub fn costs<'a>(mesh: &'a Mesh, interfaces: &'a Interfaces) -> impl Fn(usize) -
     }
 }
 
-/// Others' elements that border mine in the lattice, ascending: neighbours of triangles, and partners of atoms.
+/// Others' elements that border mine in the lattice, ascending: neighbours of triangles, partners of atoms, and across the
+/// border between triangles and atoms those with nearest-neighbour bonds, which are looked at even when they are broken.
 pub fn bordering(domain: &Domain, mesh: &Mesh, interfaces: &Interfaces, atoms: &AtomLattice) -> Vec<u32> {
     if domain.count() == 1 {
         return Vec::new();
@@ -127,6 +128,17 @@ pub fn bordering(domain: &Domain, mesh: &Mesh, interfaces: &Interfaces, atoms: &
                 found.push((mesh.triangles + partner.site()) as u32);
             }
         });
+    }
+    let at_atoms = interfaces.exposed.iter().map(|&triangle| triangle as usize);
+    let at_triangles = atoms.bordering().iter().map(|&atom| mesh.triangles + atom as usize);
+    for element in at_atoms.chain(at_triangles).filter(|&element| domain.is_mine(element)) {
+        let shape = &mesh.elements[element];
+        let sites = shape.locals().map(|local| shape.site(local));
+        let beside = sites.flat_map(|site| triangular::NEAREST.map(|[i, j]| [site[0] + i, site[1] + j]));
+        let owners = beside
+            .filter(|&site| !shape.contains(site))
+            .filter_map(|site| mesh.owner_of(site));
+        found.extend(owners.filter(|&owner| !domain.is_mine(owner)).map(|owner| owner as u32));
     }
     found.sort_unstable();
     found.dedup();

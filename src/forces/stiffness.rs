@@ -19,23 +19,16 @@ use bonds::{Bond, BondKind};
 const TASK: usize = 1024;
 
 impl Forces {
-    /// Upper bound of the squared highest angular frequency in the current state, 1/ps^2.
+    /// Upper bound of the squared highest angular frequency, 1/ps^2, in a state whose forces have just been computed: lists
+    /// and interfaces must be those of its positions. Its last digits depend on which triangles are looked at together, up
+    /// to [`Self::FREQUENCY_SLACK`].
     ///
     /// The bonds inside a triangle couple its own nodes only. A bond between two elements stores at most twice what
     /// its two ends would store each against a wall, (u_a - u_b) H (u_a - u_b)/2 <= u_a H+ u_a + u_b H+ u_b with H+
     /// the positive part of the bond's stiffness. So the system is no stiffer than its elements one by one, and the
     /// largest eigenvalue of the small matrices bounds that of the large one. For the perfect crystal of atoms the
     /// bound 6 k/m is exact.
-    pub fn squared_frequency_bound(&mut self, state: &State) -> Result<f64, ForceError> {
-        self.refresh(&state.position)?;
-        self.contacts.place_sites(&self.mesh, &state.position);
-        Ok(self.squared_frequency_bound_computed(state))
-    }
-
-    /// The same for a state whose forces have just been computed: lists and interfaces are those of this state.
-    ///
-    /// Its last digits depend on which triangles are looked at together, up to [`Self::FREQUENCY_SLACK`].
-    pub fn squared_frequency_bound_computed(&self, state: &State) -> f64 {
+    pub fn squared_frequency_bound(&self, state: &State) -> f64 {
         self.largest(state, false)
     }
 
@@ -44,7 +37,7 @@ impl Forces {
         self.largest(state, true)
     }
 
-    /// Largest relative error of [`Self::squared_frequency_bound_computed`], with some room.
+    /// Largest relative error of [`Self::squared_frequency_bound`], with some room.
     pub const FREQUENCY_SLACK: f64 = 2.0 * alike::SLACK;
 
     fn largest(&self, state: &State, one_by_one: bool) -> f64 {
@@ -101,7 +94,6 @@ impl Forces {
     /// above 1.
     pub fn stiffness_bounds(&mut self, position: &Planes) -> Result<Vec<f64>, ForceError> {
         self.refresh(position)?;
-        self.contacts.place_sites(&self.mesh, position);
         let [triangles, atoms] = self.domain.elements();
         let mut bounds = vec![0.0; self.mesh.elements.len()];
         with_law!(self.material.interaction, law => {

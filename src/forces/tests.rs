@@ -58,10 +58,11 @@ fn every_instruction_set_gives_the_same_bits_up_to(cutoff: f64) {
             .expect("the slab is sound");
         assert!(!forces.open_interfaces().is_empty());
         let state = Motion::at_rest(position, forces.mesh.lumped_masses());
-        let bound = forces.squared_frequency_bound_computed(&state);
+        let bound = forces.squared_frequency_bound(&state);
         let virial = (0..forces.mesh.elements.len()).flat_map(|element| measure.virial(element));
         let numbers = force.into_iter().flatten().chain(virial.collect::<Vec<_>>());
-        let numbers = numbers.chain([measure.energy(), measure.pairs(), bound]);
+        let [energy, pairs] = [measure.energy(&forces.domain), measure.pairs(&forces.domain)];
+        let numbers = numbers.chain([energy, pairs, bound]);
         numbers.map(f64::to_bits).collect::<Vec<_>>()
     };
     let one_by_one = forces_with(Arch::Scalar);

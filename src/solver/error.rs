@@ -60,8 +60,6 @@ pub enum SolverError {
         100.0 * strain
     )]
     RanWhileResting { notch: f64, tip: f64, strain: f64 },
-    #[error("the first rank has told what went wrong")]
-    ToldByFirstRank,
     #[error("this is no checkpoint of this specimen: {0}")]
     OtherSpecimen(&'static str),
 }

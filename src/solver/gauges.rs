@@ -56,6 +56,11 @@ impl Gauges {
         &self.places
     }
 
+    /// Elements in the patches.
+    pub fn elements(&self) -> impl Iterator<Item = u32> {
+        self.members.iter().map(|&(_, element, _)| element)
+    }
+
     /// Mean velocity x, y (nm/ps) and virial stress xx, yy, xy (eV/nm^3) of every gauge; not numbers where a patch holds
     /// no element.
     pub fn read(&self, mesh: &Mesh, state: &State, measure: &Measure, setting: &Setting) -> Vec<[f64; 5]> {

@@ -57,9 +57,7 @@ impl JIntegral {
 
     /// J of every ring, eV/nm. The forces of the state must be those of its positions.
     pub fn evaluate(&mut self, mesh: &Mesh, state: &State, rings: Rings) -> [f64; RINGS] {
-        if self.rings != Some(rings) {
-            self.go_to(mesh, rings);
-        }
+        self.go_to(mesh, rings);
         let touched = self.touched.par_iter().with_min_len(TASK);
         let nodes: Vec<Nodes> = touched
             .clone()
@@ -82,8 +80,12 @@ impl JIntegral {
         })
     }
 
-    /// Finds the elements that may have a bond into the rings, or to an element that reaches into them.
-    fn go_to(&mut self, mesh: &Mesh, rings: Rings) {
+    /// Finds the elements that may have a bond into the rings, or to an element that reaches into them: those that
+    /// [`Self::evaluate`] reads, ascending.
+    pub fn go_to(&mut self, mesh: &Mesh, rings: Rings) -> &[u32] {
+        if self.rings == Some(rings) {
+            return &self.touched;
+        }
         let largest = mesh.elements.first().map_or(0, |element| element.size);
         let elements = (0..mesh.elements.len() as u32).into_par_iter();
         let near = |&number: &u32| {
@@ -99,5 +101,6 @@ impl JIntegral {
             self.place[element as usize] = place;
         }
         self.rings = Some(rings);
+        &self.touched
     }
 }

@@ -1,7 +1,6 @@
 //! Where the energy comes from and where it goes.
 
 use super::SolverError;
-use crate::forces::Measure;
 
 /// Energy since the start of a run: what the grips put in, what is stored, and what the cutoff releases.
 ///
@@ -35,11 +34,12 @@ impl Ledger {
     /// with a million, atoms and elements alike.
     const ROUNDING: f64 = 1000.0;
 
-    /// Opens with what a specimen holds, and with what a pair's energy jumps by when it comes within the cutoff, eV.
-    pub fn new(start: &Measure, kinetic: f64, jump: f64) -> Self {
+    /// Opens with what is stored, potential energy (eV) and pairs within the cutoff, kinetic energy, and what a pair's energy
+    /// jumps by when it comes within the cutoff, eV.
+    pub fn new([potential, pairs]: [f64; 2], kinetic: f64, jump: f64) -> Self {
         Self {
-            initial_potential: start.energy(),
-            initial_pairs: start.pairs(),
+            initial_potential: potential,
+            initial_pairs: pairs,
             initial_kinetic: kinetic,
             jump,
             peak_work: 0.0,
@@ -48,16 +48,16 @@ impl Ledger {
     }
 
     /// Puts the start where the specimen is now, before any work.
-    pub fn begin(&mut self, start: &Measure, kinetic: f64) {
-        *self = Self::new(start, kinetic, self.jump);
+    pub fn begin(&mut self, stored: [f64; 2], kinetic: f64) {
+        *self = Self::new(stored, kinetic, self.jump);
     }
 
     /// Balances the energies of a moment, `work` being that of the grips so far, and remembers the largest imbalance.
-    pub fn balance(&mut self, measure: &Measure, kinetic: f64, work: f64) -> Balance {
+    pub fn balance(&mut self, [potential, pairs]: [f64; 2], kinetic: f64, work: f64) -> Balance {
         self.peak_work = self.peak_work.max(work.abs());
-        let potential = measure.energy() - self.initial_potential;
+        let potential = potential - self.initial_potential;
         // Adding zero turns a negative zero into zero.
-        let cutoff_release = self.jump * (measure.pairs() - self.initial_pairs) + 0.0;
+        let cutoff_release = self.jump * (pairs - self.initial_pairs) + 0.0;
         let imbalance = (kinetic - self.initial_kinetic + potential - work - cutoff_release).abs();
         self.peak_imbalance = self.peak_imbalance.max(imbalance);
         Balance {

@@ -3,13 +3,24 @@
 use std::time::Instant;
 
 use super::j_integral::Rings;
-use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, SolverError, probe};
+use super::ledger::Balance;
+use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe};
 use crate::analysis::crack::Tracker;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
 
+/// What a probe tells of the whole specimen.
+struct Totals {
+    /// eV
+    kinetic: f64,
+    balance: Balance,
+    /// Average virial stress xx, yy, xy, eV/nm^3.
+    stress: [f64; 3],
+}
+
 impl Solver {
-    /// Gives observers what is due; at the end of a run all that is not yet given.
+    /// Gives observers what is due; at the end of a run all that is not yet given. All ranks take part, and only the first has
+    /// observers that it gives anything to.
     pub(super) fn observe<O: Observer>(&mut self, observer: &mut O, at_end: bool) -> Result<(), RunError<O::Error>> {
         let probe = self.probes.take(self.time, self.time_step, at_end);
         let snapshot = self.snapshots.take(self.time, self.time_step, at_end);
@@ -21,63 +32,36 @@ impl Solver {
         if !self.measured {
             self.compute(true).map_err(|source| self.blow_up(source))?;
         }
-        self.gather();
-        let given = if self.ranks().is_first() {
-            self.give(observer, probe, snapshot)
-        } else {
-            Ok(())
-        };
-        if let Err(RunError::Output(_)) = given {
-            return given;
-        }
-        self.follow_first(given.is_err())?;
-        self.cost.book(Phase::Output, &mut clock);
-        given
-    }
-
-    /// Brings to the first rank what observers look at.
-    fn gather(&mut self) {
-        self.gather_motion();
-        let domain = self.forces.domain();
-        self.state.force.iter_mut().for_each(|plane| domain.gather_nodes(plane));
-        self.measure.gather(domain);
-        self.grip_impulses = self.grip_impulse.gathered(domain.ranks());
-        self.absorbed = self.loading.absorbed(domain.ranks()).iter().sum();
-    }
-
-    /// All ranks learn what only the first knows and what ends a run.
-    fn follow_first(&mut self, has_failed: bool) -> Result<(), SolverError> {
-        let has_failed = f64::from(u8::from(has_failed));
-        let mut told = [has_failed, self.stop.last_advance(), self.stop.farthest_tip()];
-        self.ranks().follow_first(&mut told);
-        let [has_failed, last_advance, farthest_tip] = told;
-        self.stop.restore(last_advance, farthest_tip);
-        if has_failed > 0.0 && !self.ranks().is_first() {
-            return Err(SolverError::ToldByFirstRank);
-        }
-        Ok(())
-    }
-
-    fn give<O: Observer>(&mut self, observer: &mut O, probe: bool, snapshot: bool) -> Result<(), RunError<O::Error>> {
         if probe {
             self.probe(observer)?;
         }
         if snapshot {
-            let broken = self.forces.broken_bonds(&self.state.position);
-            let moment = Moment {
-                step: self.step,
-                time: self.time,
-                strain: self.strain(),
-                mesh: self.forces.mesh(),
-                state: &self.state,
-                measure: &self.measure,
-                broken: &broken,
-            };
-            observer.snapshot(&moment).map_err(RunError::Output)?;
+            self.snapshot(observer)?;
         }
+        self.cost.book(Phase::Output, &mut clock);
         Ok(())
     }
 
+    fn snapshot<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
+        let broken = self.forces.broken_bonds(&self.state.position);
+        self.gather_motion();
+        self.measure.gather(self.forces.domain());
+        if !self.ranks().is_first() {
+            return Ok(());
+        }
+        let moment = Moment {
+            step: self.step,
+            time: self.time,
+            strain: self.strain(),
+            mesh: self.forces.mesh(),
+            state: &self.state,
+            measure: &self.measure,
+            broken: &broken,
+        };
+        observer.snapshot(&moment).map_err(RunError::Output)
+    }
+
+    /// All ranks follow the crack and the energy; the first alone reads the rest.
     fn probe<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         let number = self.probes.taken() - 1;
         let bonds = self.changed_bonds(number as u32);
@@ -85,7 +69,41 @@ impl Solver {
             bonds.iter().for_each(|event| tracker.apply(event));
             self.stop.follow(tracker.tip().x, self.time);
         }
-        let row = self.probe_row();
+        let totals = self.totals();
+        let rings = self.rings();
+        self.bring_into_sight(rings);
+        if self.ranks().is_first() {
+            self.give(observer, totals, rings, &bonds)?;
+        }
+        self.ledger
+            .check(self.step, self.time, self.strain(), || self.fastest_node())?;
+        Ok(())
+    }
+
+    /// Sums over the whole specimen, which all ranks must ask for together.
+    fn totals(&mut self) -> Totals {
+        let domain = self.forces.domain();
+        let ranks = domain.ranks();
+        let [kinetic] = domain.sum_nodes(|node| [self.state.kinetic_energy_of(node)]);
+        let absorbed: f64 = self.loading.absorbed(ranks).iter().sum();
+        let work = self.loading.work(&self.grip_impulse.gathered(ranks)) - absorbed;
+        let stored = [self.measure.energy(domain), self.measure.pairs(domain)];
+        let mesh = self.forces.mesh();
+        Totals {
+            kinetic,
+            balance: self.ledger.balance(stored, kinetic, work),
+            stress: self.interior.average_stress(mesh, domain, &self.measure, &self.setting),
+        }
+    }
+
+    fn give<O: Observer>(
+        &mut self,
+        observer: &mut O,
+        totals: Totals,
+        rings: Option<Rings>,
+        bonds: &[BondEvent],
+    ) -> Result<(), RunError<O::Error>> {
+        let row = self.probe_row(totals, rings);
         let measure = &self.measure;
         let profile = self.profile.stress(measure, &self.setting);
         let traction = self.traction.read(self.forces.material(), &self.state);
@@ -96,7 +114,7 @@ impl Solver {
             gauges: &self
                 .gauges
                 .read(self.forces.mesh(), &self.state, measure, &self.setting),
-            bonds: &bonds,
+            bonds,
         };
         observer.probe(&reading).map_err(RunError::Output)?;
         observer.progress(&Progress {
@@ -111,25 +129,29 @@ impl Solver {
             strain: self.strain(),
             tip: self.tracker.as_ref().map(|_| self.stop.farthest_tip()),
         });
-        self.ledger
-            .check(self.step, self.time, self.strain(), || self.fastest_node())?;
         Ok(())
     }
 
-    /// Where the fastest node was before the loading.
+    /// Where the fastest node of all ranks was before the loading.
     fn fastest_node(&self) -> [f64; 2] {
         let [x, y] = &self.state.velocity;
-        let squared = |node: usize| x[node] * x[node] + y[node] * y[node];
-        let fastest = (0..self.state.nodes()).max_by(|&a, &b| squared(a).total_cmp(&squared(b)));
-        self.reference_place(fastest.unwrap_or_default())
+        // What is no number is faster than anything.
+        let squared = |node: usize| (x[node] * x[node] + y[node] * y[node]).min(f64::INFINITY);
+        let domain = self.forces.domain();
+        let mine = domain.nodes().into_iter().flatten();
+        let fastest = mine.max_by(|&a, &b| squared(a).total_cmp(&squared(b)));
+        let speed = fastest.map_or(0.0, squared);
+        let is_mine = speed == domain.ranks().largest(speed);
+        let told = fastest.filter(|_| is_mine).map_or(u64::MAX, |node| node as u64);
+        self.reference_place(domain.ranks().least(told) as usize)
     }
 
-    fn probe_row(&mut self) -> Probe {
-        let measure = &self.measure;
-        let kinetic = self.state.kinetic_energy();
-        let work = self.loading.work(&self.grip_impulses) - self.absorbed;
-        let balance = self.ledger.balance(measure, kinetic, work);
-        let [sigma_xx, sigma_yy, sigma_xy] = self.interior.average_stress(measure, &self.setting);
+    fn probe_row(&mut self, totals: Totals, rings: Option<Rings>) -> Probe {
+        let Totals {
+            kinetic,
+            balance,
+            stress: [sigma_xx, sigma_yy, sigma_xy],
+        } = totals;
         let area = self.setting.length * self.setting.thickness;
         Probe {
             step: self.step,
@@ -144,22 +166,18 @@ impl Solver {
             work: balance.work,
             cutoff_release: balance.cutoff_release,
             temperature: self.thermometer.read(&self.state),
-            j_integral: self.j_integral(),
+            j_integral: rings.map_or([f64::NAN; RINGS], |rings| {
+                self.j_integral.evaluate(self.forces.mesh(), &self.state, rings)
+            }),
         }
     }
 
-    /// J in the rings around the tip; not a number where there is no tip or no room for rings, and where bonds of nodes
+    /// Rings around the tip, in which J is read; `None` where there is no tip or no room for them, and where bonds of nodes
     /// stand for all others, so that the stress of the bonds is not what moves the nodes.
-    fn j_integral(&mut self) -> [f64; RINGS] {
-        if self.settings.summation == Summation::Nodal {
-            return [f64::NAN; RINGS];
-        }
-        let mesh = self.forces.mesh();
+    fn rings(&self) -> Option<Rings> {
         let tip = self.tracker.as_ref().map(Tracker::tip);
-        match tip.and_then(|tip| Rings::around(tip, mesh, &self.setting)) {
-            Some(rings) => self.j_integral.evaluate(mesh, &self.state, rings),
-            None => [f64::NAN; RINGS],
-        }
+        let tip = tip.filter(|_| self.settings.summation != Summation::Nodal);
+        Rings::around(tip?, self.forces.mesh(), &self.setting)
     }
 
     /// Bonds that broke or closed since the last probe; remembers those broken now.

@@ -1,42 +1,32 @@
 //! What a probe reads off a moment.
 
-use std::ops::Range;
-
 use crate::analysis::series::{BondEvent, Setting};
+use crate::domain::Domain;
 use crate::forces::Measure;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
+use crate::mesh::element::Element;
 
-/// The elements between the grips.
+/// What lies between the grips.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Interior {
-    /// Consecutive ones together.
-    runs: Vec<Range<usize>>,
     sites: usize,
 }
 
 impl Interior {
     pub fn new(mesh: &Mesh) -> Self {
-        let mut interior = Self {
-            runs: Vec::new(),
-            sites: 0,
-        };
-        for (number, element) in mesh.elements.iter().enumerate() {
-            if mesh.grip_of(element) == 0 {
-                interior.sites += element.site_count();
-                match interior.runs.last_mut().filter(|run| run.end == number) {
-                    Some(run) => run.end += 1,
-                    None => interior.runs.push(number..number + 1),
-                }
-            }
+        let inside = mesh.elements.iter().filter(|element| mesh.grip_of(element) == 0);
+        Self {
+            sites: inside.map(Element::site_count).sum(),
         }
-        interior
     }
 
-    /// Average virial stress xx, yy, xy, eV/nm^3, over the reference area.
-    pub fn average_stress(&self, measure: &Measure, setting: &Setting) -> [f64; 3] {
-        let sums = self.runs.iter().map(|run| measure.virial_of(run.clone()));
-        let sum = sums.fold([0.0; 3], |sum, part| [0, 1, 2].map(|k| sum[k] + part[k]));
+    /// Average virial stress xx, yy, xy, eV/nm^3, over the reference area. All ranks must ask for it together.
+    pub fn average_stress(&self, mesh: &Mesh, domain: &Domain, measure: &Measure, setting: &Setting) -> [f64; 3] {
+        let sum = domain.sum_elements(|element| match mesh.grip_of(&mesh.elements[element]) {
+            0 => measure.virial(element),
+            _ => [0.0; 3],
+        });
         sum.map(|virial| virial / (self.sites as f64 * site_volume(setting)))
     }
 }
@@ -116,6 +106,11 @@ impl ProfileLine {
 
     pub fn centres(&self) -> &[f64] {
         &self.centres
+    }
+
+    /// Elements in the bins.
+    pub fn elements(&self) -> impl Iterator<Item = u32> {
+        self.members.iter().map(|&(_, element, _)| element)
     }
 
     /// Average virial stress in every bin, eV/nm^3; not a number where a bin holds no element.

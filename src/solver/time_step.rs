@@ -21,7 +21,7 @@ const NEAREST: f64 = 0.75;
 /// Stability limit of a state whose forces have just been computed, ps, to nine digits: what rounding does to the rest may
 /// depend on which elements are computed together, and must not get into a time step.
 pub fn limit(forces: &Forces, state: &State) -> f64 {
-    let bound = forces.squared_frequency_bound_computed(state);
+    let bound = forces.squared_frequency_bound(state);
     let [least, most] = [-1.0, 1.0].map(|sign| nine_digits(bound * (1.0 + sign * Forces::FREQUENCY_SLACK)));
     if least == most {
         return least;

@@ -70,6 +70,12 @@ impl Traction {
         }
     }
 
+    /// Nodes that carry the sites of the bonds.
+    pub fn nodes(&self) -> impl Iterator<Item = u32> {
+        let sites = self.bonds.iter().flat_map(|bond| [&bond.below, &bond.above]);
+        sites.flat_map(|site| site.nodes)
+    }
+
     /// Force x, y with which what is above pulls at what is below, over the area, in every bin, eV/nm^3.
     pub fn read(&self, material: &Material, state: &State) -> Vec<[f64; 2]> {
         let mut sums = vec![[0.0; 2]; self.bins];

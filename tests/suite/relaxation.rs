@@ -26,13 +26,13 @@ fn every_mesh_with_a_crack_comes_to_rest_at_a_minimum_of_the_energy() {
             let label = format!("{name}, {mesh_name}");
             let (mut forces, mut state) = stretched(&mesh, &material, 5e-3);
             let start = state.position.clone();
-            let before = forces.measure(&start).unwrap().energy();
+            let before = forces.measure(&start).unwrap().energy(forces.domain());
             let rest = relax(&mut forces, &mut state, Target::default()).expect(&label);
             assert!(rest.residual <= Target::default().residual, "{label}: {rest:?}");
             let mut force: Planes = [vec![0.0; state.nodes()], vec![0.0; state.nodes()]];
             forces.compute(&mut state.position.clone(), &mut force).unwrap();
             assert!(force == state.force, "{label}: the forces belong to the positions");
-            let after = forces.measure(&state.position).unwrap().energy();
+            let after = forces.measure(&state.position).unwrap().energy(forces.domain());
             assert!(after < before, "{label}: {after} is not below {before}");
             let mut noise = Noise(3);
             for axis in 0..2 {
@@ -44,7 +44,7 @@ fn every_mesh_with_a_crack_comes_to_rest_at_a_minimum_of_the_energy() {
                     }
                 }
             }
-            let shaken = forces.measure(&state.position).unwrap().energy();
+            let shaken = forces.measure(&state.position).unwrap().energy(forces.domain());
             assert!(shaken > after, "{label}: {shaken} is not above {after}");
         }
     }
@@ -56,7 +56,7 @@ fn a_start_far_from_the_lattice_finds_the_way_back() {
     let mesh = slab(1, vec![], material.spacing);
     let (mut forces, mut state) = stretched(&mesh, &material, 1e-3);
     relax(&mut forces, &mut state, Target::default()).unwrap();
-    let near = forces.measure(&state.position).unwrap().energy();
+    let near = forces.measure(&state.position).unwrap().energy(forces.domain());
     let mut noise = Noise(11);
     for axis in 0..2 {
         for node in 0..state.nodes() {
@@ -66,7 +66,7 @@ fn a_start_far_from_the_lattice_finds_the_way_back() {
         }
     }
     relax(&mut forces, &mut state, Target::default()).unwrap();
-    let found = forces.measure(&state.position).unwrap().energy();
+    let found = forces.measure(&state.position).unwrap().energy(forces.domain());
     assert!((found / near - 1.0).abs() < 1e-12, "{found} for {near}");
 }
 

@@ -122,7 +122,7 @@ fn differences(model: &Model, mesh: &Mesh, material: &Material, position: &Plane
         .iter()
         .flatten()
         .fold(bond, |scale, force| scale.max(force.abs()));
-    let measured = forces.measure(position).unwrap().energy();
+    let measured = forces.measure(position).unwrap().energy(forces.domain());
     [
         (energy / measured - 1.0).abs(),
         largest_difference(&force, &expected) / scale,
@@ -238,10 +238,8 @@ fn differences_of_totals(case: &Case, mesh: &Mesh, state: &State, row: &[f64]) -
         case::Grips::Sliding => Grip::Sliding,
     };
     let pull = Stretching::new(mesh, rate, grip, true).grip_force(state);
-    let energy = Forces::new(mesh.clone(), setup::material(case).unwrap())
-        .measure(&state.position)
-        .unwrap()
-        .energy();
+    let mut forces = Forces::new(mesh.clone(), setup::material(case).unwrap());
+    let energy = forces.measure(&state.position).unwrap().energy(forces.domain());
     let expected = [energy, state.kinetic_energy(), pull];
     assert_eq!(row.len(), 3 + expected.len());
     [0, 1, 2].map(|total| (row[3 + total] / expected[total] - 1.0).abs())

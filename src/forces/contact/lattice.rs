@@ -66,6 +66,11 @@ impl AtomLattice {
         &self.partners
     }
 
+    /// Atoms that border anything but atoms, ascending.
+    pub fn bordering(&self) -> &[u32] {
+        &self.bordering
+    }
+
     /// Atoms that may have irregular bonds: those whose partners the last search found, ascending; all before the first.
     pub fn searched(&self) -> &[u32] {
         &self.searched

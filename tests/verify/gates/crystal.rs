@@ -59,7 +59,10 @@ fn energy_density(element: u16, material: &Material, [xx, yy, xy]: [f64; 3]) -> 
     let energy = |mesh: &Mesh| {
         let position = displaced(mesh, |[x, y]| [xx * x + xy * y, yy * y]);
         let mut forces = Forces::new(mesh.clone(), *material);
-        forces.measure(&position).expect("the state is sound").energy()
+        forces
+            .measure(&position)
+            .expect("the state is sound")
+            .energy(forces.domain())
     };
     interior(element, material, energy) / area(material)
 }
@@ -230,7 +233,8 @@ fn parting_energy(element: u16, material: &Material) -> [f64; 2] {
             let position = displaced(&mesh, |[_, y]| [0.0, if y > middle { gap } else { 0.0 }]);
             let mut forces = Forces::new(mesh.clone(), *material);
             let measure = forces.measure(&position).expect("the state is sound");
-            [measure.energy(), measure.energy() - jump * measure.pairs()]
+            let [energy, pairs] = [measure.energy(forces.domain()), measure.pairs(forces.domain())];
+            [energy, energy - jump * pairs]
         });
         [parted[0] - whole[0], parted[1] - whole[1]]
     };

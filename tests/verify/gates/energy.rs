@@ -43,7 +43,7 @@ fn slope(forces: &mut Forces, position: &mut Planes, axis: usize, node: usize) -
         position[axis][node] = place + steps * step;
         let measure = forces.measure(position).expect("the state is sound");
         position[axis][node] = place;
-        (measure.energy(), measure.pairs())
+        (measure.energy(forces.domain()), measure.pairs(forces.domain()))
     };
     let stencil = [-2.0, -1.0, 1.0, 2.0].map(&mut at);
     let [far_below, below, above, far_above] = stencil.map(|(energy, _)| energy);
@@ -173,7 +173,10 @@ fn change_when_moved(mesh: &Mesh, material: &Material, summation: Summation, pos
     let [here, there] = [position, &moved].map(|position| force_of(mesh, material, summation, position));
     let [energy, energy_there] = [position, &moved].map(|position| {
         let mut forces = Forces::with_summation(mesh.clone(), *material, summation);
-        forces.measure(position).expect("the state is sound").energy()
+        forces
+            .measure(position)
+            .expect("the state is sound")
+            .energy(forces.domain())
     });
     let scale = bond_strength(material).max(largest(&here));
     let mut worst_force = 0.0f64;

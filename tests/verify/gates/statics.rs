@@ -63,7 +63,10 @@ impl Specimen {
         Stretching::new(&mesh, 1.0, shape.grip, false).hold(&mut state);
         let (heights, crack) = (mesh.grip_edges(), severed_length(&mesh));
         let mut forces = Forces::new(mesh, material);
-        let perfect = forces.measure(&state.position).expect("the lattice is sound").energy();
+        let perfect = forces
+            .measure(&state.position)
+            .expect("the lattice is sound")
+            .energy(forces.domain());
         Self {
             forces,
             reference: state.clone(),
@@ -138,7 +141,7 @@ impl Specimen {
     /// Energy above that of the unstrained lattice with the same cut.
     pub fn strain_energy(&mut self) -> f64 {
         let measure = self.forces.measure(&self.state.position).expect("the state is sound");
-        measure.energy() - self.perfect
+        measure.energy(self.forces.domain()) - self.perfect
     }
 }
 

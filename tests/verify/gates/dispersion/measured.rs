@@ -44,7 +44,8 @@ impl Measured {
         let nodes: Vec<usize> = cell.iter().flat_map(|&element| 3 * element..3 * element + 3).collect();
         let images = images(&mesh, size, &cell);
         let mut forces = Forces::new(mesh, *material);
-        let bound = forces.squared_frequency_bound(&state).expect("the patch is sound");
+        forces.refresh(&state.position).expect("the patch is sound");
+        let bound = forces.squared_frequency_bound(&state);
         let mut accelerations = |state: &mut State| {
             forces
                 .compute(&mut state.position, &mut state.force)
