@@ -4,6 +4,7 @@
 //! evaluated twice, and in return every sum has one fixed order. A list holds the pairs within the cutoff and a skin;
 //! those beyond the cutoff add nothing, so the moment at which a list was made leaves no trace in the result.
 
+mod boxes;
 mod grid;
 pub mod lattice;
 mod near;
@@ -212,7 +213,7 @@ impl Contacts {
     }
 
     /// Brings the positions of the sites up to date.
-    pub fn place_sites(&mut self, mesh: &Mesh, position: &Planes) {
+    fn place_sites(&mut self, mesh: &Mesh, position: &Planes) {
         let [mut site_x, mut site_y] = std::mem::take(&mut self.position);
         let sites = self.partners.site_count();
         site_x.resize(sites + MOST, 0.0);

@@ -25,6 +25,34 @@ impl Bounds {
         }
     }
 
+    /// Widens them until they hold others.
+    pub fn join(&mut self, other: &Self) {
+        self.include(&[other.low(), other.high()]);
+    }
+
+    /// The same with so much more on each side.
+    pub fn widened(&self, by: f64) -> Self {
+        Self(self.0.map(|[low, high]| [low - by, high + by]))
+    }
+
+    pub fn low(&self) -> [f64; 2] {
+        self.0.map(|[low, _]| low)
+    }
+
+    pub fn high(&self) -> [f64; 2] {
+        self.0.map(|[_, high]| high)
+    }
+
+    /// Lengths of the sides; none of what holds nothing.
+    pub fn extent(&self) -> [f64; 2] {
+        self.0.map(|[low, high]| (high - low).max(0.0))
+    }
+
+    pub fn longer_side(&self) -> f64 {
+        let [x, y] = self.extent();
+        x.max(y)
+    }
+
     /// Whether a point is inside or less than a distance away from each side.
     pub fn are_within(&self, distance: f64, point: [f64; 2]) -> bool {
         let mut sides = self.0.iter().zip(point);

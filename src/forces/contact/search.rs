@@ -7,6 +7,7 @@ use super::super::interface::State;
 use super::super::summation::Summation;
 use super::super::{CHUNK, Planes};
 use super::Contacts;
+use super::boxes::Boxes;
 use super::grid::Grid;
 use super::lattice::{AtomLattice, Surroundings, pair_along};
 use super::near::{Bounds, Corners, are_apart, is_apart_from};
@@ -48,19 +49,16 @@ impl Field<'_> {
             [0, 1, 2].map(|corner| [0, 1].map(|axis: usize| position[axis][first + corner]))
         };
         let corners: Vec<Corners> = triangles.iter().map(corners_of).collect();
-        let centre = |[a, b, c]: &Corners| [0, 1].map(|axis| (a[axis] + b[axis] + c[axis]) / 3.0);
-        let centres: Vec<[f64; 2]> = corners.iter().map(centre).collect();
-        let reach = |(corners, centre): (&Corners, &[f64; 2])| {
-            let squared = corners
-                .iter()
-                .map(|corner| (corner[0] - centre[0]).powi(2) + (corner[1] - centre[1]).powi(2));
-            squared.fold(0.0, f64::max).sqrt()
+        let around = |points: &[[f64; 2]]| {
+            let mut bounds = Bounds::NOTHING;
+            bounds.include(points);
+            bounds
         };
-        let farthest = corners.iter().zip(&centres).map(reach).fold(0.0, f64::max);
-        let grid = Grid::new(&centres, 2.0 * farthest + distance);
+        let bounds: Vec<Bounds> = corners.iter().map(|corners| around(corners)).collect();
+        let boxes = Boxes::new(&bounds, distance);
         let mut met = vec![Bounds::NOTHING; triangles.len()];
         for one in 0..triangles.len() {
-            grid.for_each_near(centres[one], |other| {
+            boxes.for_each_near(&bounds[one].widened(distance), |other| {
                 if other > one
                     && !are_apart(&corners[one], &corners[other], distance)
                     && !self.summed_elsewhere(triangles[one], triangles[other])
@@ -73,7 +71,7 @@ impl Field<'_> {
         for &atom in atoms {
             let node = 3 * self.mesh.triangles + atom as usize;
             let place = [position[0][node], position[1][node]];
-            grid.for_each_near(place, |triangle| {
+            boxes.for_each_near(&around(&[place]).widened(distance), |triangle| {
                 if !is_apart_from(&corners[triangle], place, distance) {
                     met[triangle].include(&[place]);
                 }
