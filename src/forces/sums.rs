@@ -153,7 +153,7 @@ impl Forces {
             position,
         };
         let mine = self.domain.triangles();
-        let [length, count] = [tile::tile_length(mine.len()), self.tiles.len()];
+        let [length, count] = [self.tile_length(), self.tiles.len()];
         let [nodes, _] = self.domain.nodes();
         let force = in_parts(force.each_mut().map(|axis| &mut axis[nodes.clone()]), 3 * length, count);
         let [held, _] = measure.split(self.mesh.triangles);
@@ -168,6 +168,11 @@ impl Forces {
             })
             .flatten_iter()
             .collect()
+    }
+
+    /// Triangles of every tile but the last, which may have fewer.
+    fn tile_length(&self) -> usize {
+        self.tiles.first().map_or(1, |tile| tile.triangles.len())
     }
 
     /// Interfaces to be watched or of these triangles that are no longer what they were, and what they are.
@@ -194,7 +199,7 @@ impl Forces {
         let words = self.domain.ranks().join(words.collect());
         let mut touched = vec![false; self.tiles.len()];
         let triangles = self.domain.triangles();
-        let length = tile::tile_length(triangles.len());
+        let length = self.tile_length();
         let (changed, _) = words.as_chunks::<2>();
         for &[number, state] in changed {
             let pair = self.interfaces.pairs[number as usize];

@@ -18,7 +18,7 @@ use crate::mesh::interfaces::Interfaces;
 /// many that all threads of a machine have some.
 const LARGEST: usize = 4096;
 const SMALLEST: usize = 256;
-const TILES: usize = 32;
+const TILES_A_THREAD: usize = 16;
 
 /// Consecutive triangles, and the interfaces with strings that touch them.
 pub struct Tile {
@@ -44,7 +44,8 @@ struct Run {
 
 /// Cuts consecutive triangles of a mesh, those of one rank, into tiles.
 pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, mine: Range<usize>) -> Vec<Tile> {
-    let length = tile_length(mine.len());
+    let wanted = mine.len() / (TILES_A_THREAD * rayon::current_num_threads());
+    let length = wanted.next_multiple_of(SMALLEST).clamp(SMALLEST, LARGEST);
     let starts = mine.clone().step_by(length);
     let mut tiles: Vec<Tile> = starts
         .map(|start| Tile::empty(mesh, start..(start + length).min(mine.end)))
@@ -78,10 +79,6 @@ pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, min
         }
     }
     tiles
-}
-
-pub fn tile_length(triangles: usize) -> usize {
-    (triangles / TILES).next_multiple_of(SMALLEST).clamp(SMALLEST, LARGEST)
 }
 
 impl Tile {
