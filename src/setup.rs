@@ -148,7 +148,9 @@ pub fn solver(case: &Case) -> Result<Solver, SetupError> {
 pub fn shared_solver(case: &Case, ranks: Ranks) -> Result<Solver, SetupError> {
     let material = material(case)?;
     let plan = mesh_plan(case, &material)?;
-    refuse_what_does_not_fit(&plan)?;
+    estimate::refuse_what_does_not_fit(&plan, ranks.here())?;
+    // All have looked at what is free before any takes of it.
+    ranks.wait_for_all();
     let mesh = Mesh::new(&plan);
     let case::Loading::StrainRate {
         mode: case::Mode::I,

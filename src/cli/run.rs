@@ -12,7 +12,7 @@ use super::terminal::Terminal;
 use super::{CliError, cluster, format, plan, report};
 use crate::executor::share::{Crew, Demand, Share, share};
 use crate::executor::{self, Ending, Errand, ExecutorError, Job, Settings, Stop, exit, launch, mpi, slurm};
-use crate::plan as planning;
+use crate::plan::{self as planning, PlannedCase};
 use crate::setup::Estimate;
 use crate::store::State;
 
@@ -143,7 +143,11 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
             wanted.push(entry);
         }
     }
-    let estimates = estimates(&survey.plan, wanted.iter().map(|entry| &entry.planned))?;
+    let asked: Vec<PlannedCase> = wanted
+        .iter()
+        .map(|entry| with_ranks(&entry.planned, arguments))
+        .collect();
+    let estimates = estimates(&survey.plan, &asked)?;
     let now = Timestamp::now();
     let job = |(entry, estimate): (&Entry, &Estimate)| Job {
         name: entry.planned.name.clone(),
@@ -181,6 +185,17 @@ fn refuse_another_crew(survey: &Survey, crew: CrewChoice) -> Result<(), CliError
             survey.plan.study
         ))),
     }
+}
+
+/// A case with the ranks that will compute it on this machine.
+fn with_ranks(planned: &PlannedCase, arguments: &Arguments) -> PlannedCase {
+    let mut planned = planned.clone();
+    let execution = &mut planned.case.execution;
+    execution.ranks = match arguments.on {
+        On::Local => arguments.crew.ranks.or(execution.ranks),
+        On::Slurm => None,
+    };
+    planned
 }
 
 impl Prepared {

@@ -52,6 +52,7 @@ pub enum SetupError {
     /// GiB needed, and free on this machine.
     TooLarge {
         sites: u64,
+        ranks: u32,
         needed: f64,
         present: f64,
     },
@@ -129,13 +130,25 @@ impl SetupError {
                 format!("use {rows} or less"),
             )
             .with(Subject::Width, "in this width"),
-            Self::TooLarge { sites, needed, present } => Refusal::new(
-                Subject::Length,
-                format!(
-                    "a mesh of {sites} sites needs about {needed:.1} GiB and this machine has {present:.1} GiB free"
-                ),
-                "make the specimen smaller, or use larger elements",
-            )
+            Self::TooLarge {
+                sites,
+                ranks,
+                needed,
+                present,
+            } => {
+                let (each, fewer) = match ranks {
+                    1 => (String::new(), ""),
+                    _ => (format!(" for {ranks} ranks, each of which holds it whole,"), "use fewer ranks, "),
+                };
+                Refusal::new(
+                    Subject::Length,
+                    format!(
+                        "a mesh of {sites} sites{each} needs about {needed:.1} GiB and this machine has {present:.1} GiB \
+                         free"
+                    ),
+                    format!("{fewer}make the specimen smaller, or use larger elements"),
+                )
+            }
             .with(Subject::Element, "with these elements"),
             Self::Solver(SolverError::StepTooLong { given, limit }) => Refusal::new(
                 Subject::TimeStep,

@@ -25,6 +25,7 @@ pub struct Estimate {
     /// Largest stable time step, ps.
     pub stability_limit: f64,
     pub steps: u64,
+    /// Of all ranks together.
     pub memory_bytes: u64,
     /// Of its pictures and its checkpoint, at most: while the pictures are put together.
     pub disk_bytes: u64,
@@ -68,7 +69,7 @@ impl Estimator {
     pub fn estimate(&mut self, case: &Case) -> Result<Estimate, SetupError> {
         let material = self.material(case)?;
         let plan = mesh_plan(case, &material)?;
-        refuse_what_does_not_fit(&plan)?;
+        refuse_what_does_not_fit(&plan, ranks(case))?;
         let census = self.census(plan);
         let stability_limit = self.stability_limit(case, &census, &material)?;
         estimate_with(case, &material, &census, stability_limit)
@@ -161,7 +162,7 @@ fn estimate_with(
         time_step,
         stability_limit,
         steps,
-        memory_bytes: census.memory(),
+        memory_bytes: census.memory() * u64::from(ranks(case)),
         disk_bytes: disk(case, census, steps as f64 * time_step),
         seconds: census.weigh(of_element) * steps as f64,
     })
@@ -207,18 +208,52 @@ fn stability_limit_of(size: i32, material: &Material, settings: &Settings) -> Re
     Solver::new(patch, *material, loading, settings).map(|solver| solver.time_step()[1])
 }
 
-/// Refuses a mesh that would not fit into what is free of this machine's memory, before it is made.
-pub fn refuse_what_does_not_fit(plan: &Plan) -> Result<(), SetupError> {
+fn ranks(case: &Case) -> u32 {
+    case.execution.ranks.unwrap_or(1)
+}
+
+/// Refuses a mesh that so many ranks on this machine, each of which holds the whole, would not fit into what is free of its
+/// memory, before it is made.
+pub fn refuse_what_does_not_fit(plan: &Plan, ranks: u32) -> Result<(), SetupError> {
     const GIBIBYTE: f64 = 1_073_741_824.0;
     let census = Census::by_area(plan);
     let sites = census.sites;
-    let needed = census.memory() as f64 / GIBIBYTE;
+    let needed = f64::from(ranks) * census.memory() as f64 / GIBIBYTE;
     match memory::free().map(|bytes| bytes as f64) {
         Some(present) if needed > present / GIBIBYTE => Err(SetupError::TooLarge {
             sites,
+            ranks,
             needed,
             present: present / GIBIBYTE,
         }),
         _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_rank_counts_where_all_hold_the_whole_mesh() {
+        let plan = Plan {
+            layout: Layout {
+                block: 10,
+                rows: 4,
+                triangles: 5,
+            },
+            element: 10,
+            regions: vec![],
+            crack_length: None,
+            grip_rows: 10,
+            spacing: 0.25,
+        };
+        refuse_what_does_not_fit(&plan, 1).unwrap();
+        let refused = refuse_what_does_not_fit(&plan, u32::MAX).unwrap_err();
+        let told = refused.refusal().message;
+        assert!(
+            told.contains("for 4294967295 ranks, each of which holds it whole"),
+            "{told}"
+        );
     }
 }
