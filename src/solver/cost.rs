@@ -5,8 +5,10 @@ use std::time::Instant;
 /// What a run spends its time on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// Mesh, neighbours and first forces; the source's INP and GETMAP.
+    /// Mesh, domains, neighbours and first forces; the source's INP and GETMAP.
     SetUp,
+    /// Domains cut anew, because some rank had more to do than others; the source's GETMAP.
+    Cut,
     /// Neighbour search; the source's ELIST.
     Neighbours,
     /// What ranks send each other in every step, and how long they wait; the source's EXCHANGE.
@@ -22,8 +24,9 @@ pub enum Phase {
 }
 
 impl Phase {
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::SetUp,
+        Self::Cut,
         Self::Neighbours,
         Self::Exchange,
         Self::Forces,
@@ -35,6 +38,7 @@ impl Phase {
     pub fn name(self) -> &'static str {
         match self {
             Self::SetUp => "set-up",
+            Self::Cut => "cut",
             Self::Neighbours => "neighbours",
             Self::Exchange => "exchange",
             Self::Forces => "forces",

@@ -50,17 +50,18 @@ impl Solver {
             let adapted = self.settings.time_step.adapt(self.time_step, self.stability_limit);
             self.time_step = adapted.ok_or_else(|| self.step_unstable())?;
             self.cost.book(Phase::Stability, &mut clock);
-            self.balance_ranks();
+            let is_unbalanced = self.forces.is_unbalanced();
             self.cost.book(Phase::Exchange, &mut clock);
+            if is_unbalanced {
+                self.cut_anew();
+                self.cost.book(Phase::Cut, &mut clock);
+            }
         }
         Ok(())
     }
 
-    /// Cuts the specimen anew where some rank has had too much to do. It leaves no trace in the results.
-    fn balance_ranks(&mut self) {
-        if !self.forces.is_unbalanced() {
-            return;
-        }
+    /// Cuts the specimen anew. It leaves no trace in the results.
+    fn cut_anew(&mut self) {
         let domain = self.forces.domain();
         let State {
             position,
