@@ -112,5 +112,5 @@ setup:
 
 test-setup: setup
 	@.ci/python target/python h5py numpy vtk
-	@CARGO=$(CARGO) .ci/solver $(TARGET)
-	@mkdir -p target/mpi && cp $(TARGET)/release/cgaft-solve target/mpi/
+	@CARGO=$(CARGO) .ci/solver $(TARGET) --example one_rank_panics
+	@mkdir -p target/mpi && cp $(TARGET)/release/cgaft-solve $(TARGET)/release/examples/one_rank_panics target/mpi/

@@ -139,6 +139,44 @@ fn a_rank_that_fails_alone_ends_the_job_with_its_message_and_code() {
 }
 
 #[test]
+fn a_rank_that_panics_ends_the_job_with_its_message_and_code() {
+    let place = Workspace::new();
+    let program = solver_with_mpi().with_file_name("one_rank_panics");
+    let start = Instant::now();
+    let said = Program::start(&mut mpirun(3, &program), &place)
+        .wait(PATIENCE)
+        .ended_with(101);
+    assert!(said.stderr.contains("rank 1 panics"), "{}", said.stderr);
+    assert!(start.elapsed() < SECONDS_TO_END);
+}
+
+#[test]
+fn the_specimen_is_cut_anew_where_a_rank_gets_less_of_the_machine_and_leaves_no_trace() {
+    let place = Workspace::new();
+    let (run, case) = computed(&place);
+    let script = place.path("one-gives-way.sh");
+    // Both share a core, and the second gives way to the first.
+    let lines = "#!/bin/sh\ncore=$(taskset -cp $$ | sed 's/.*: *//; s/[-,].*//')\n\
+                 [ $OMPI_COMM_WORLD_RANK = 1 ] && renice -n 5 $$ >/dev/null\nexec taskset -c $core \"$@\"\n";
+    fs::write(&script, lines).unwrap();
+    let into = place.path("cut anew");
+    let mut job = mpirun(2, Path::new("sh"));
+    job.arg(&script)
+        .arg(solver_with_mpi())
+        .arg(&case)
+        .arg("--into")
+        .arg(&into);
+    Program::start(job.args(["--threads", "1"]), &place)
+        .wait(PATIENCE)
+        .succeeded();
+    let outcome: serde_json::Value = serde_json::from_slice(&fs::read(into.join("outcome.json")).unwrap()).unwrap();
+    let phases = outcome["cost"].as_array().unwrap();
+    let cut = phases.iter().find(|phase| phase["name"] == "cut").unwrap();
+    assert!(cut["calls"].as_u64().unwrap() > 0, "{outcome:#}");
+    assert_same_results(&into, &run);
+}
+
+#[test]
 fn physics_that_fails_on_any_rank_is_told_once_with_step_and_place() {
     let place = Workspace::new();
     let (_, case) = computed(&place);
