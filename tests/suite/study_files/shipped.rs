@@ -61,6 +61,55 @@ fn the_models_have_the_nodes_elements_and_atoms_of_table_5_1() {
     }
 }
 
+/// What cases took on a core of a quiet 2.6 GHz EPYC, s.
+const MEASURED: [(&str, &str, f64); 8] = [
+    ("models-A-E.yaml", "A", 346.0),
+    ("speed-against-error.yaml", "n10", 1.20),
+    ("speed-against-error.yaml", "n5", 5.37),
+    ("speed-against-error.yaml", "band4", 4.64),
+    ("speed-against-error.yaml", "atoms", 5.99),
+    ("speed-against-error.yaml", "far-atoms", 14.5),
+    ("speed-against-error.yaml", "far-n10", 2.78),
+    ("speed-against-error.yaml", "smooth-n10", 2.44),
+];
+
+/// The largest memory that solvers took, bytes.
+const PEAKS: [(&str, &str, f64); 5] = [
+    ("models-A-E.yaml", "A", 2.57e8),
+    ("models-A-E.yaml", "C", 1.93e8),
+    ("models-A-E.yaml", "D", 0.99e8),
+    ("models-A-E.yaml", "E", 2.33e8),
+    ("speed-against-error.yaml", "n10", 2.3e7),
+];
+
+/// Times and peaks depend on how a crack runs and on what else a machine does: an estimate tells minutes from hours.
+const NEAR: f64 = 1.55;
+
+#[test]
+fn estimates_come_near_to_what_shipped_cases_took() {
+    let mut estimator = setup::Estimator::default();
+    let mut estimate = |study: &str, name: &str| {
+        let plan = plan(&study::read(study).unwrap()).unwrap();
+        let case = plan.cases.iter().find(|case| case.name == name).unwrap();
+        estimator.estimate(&case.case).unwrap()
+    };
+    let is_near = |ratio: f64| (1.0 / NEAR..NEAR).contains(&ratio);
+    for (study, case, measured) in MEASURED {
+        let seconds = estimate(study, case).seconds;
+        assert!(
+            is_near(seconds / measured),
+            "{study} {case}: {seconds} s for {measured} s"
+        );
+    }
+    for (study, case, measured) in PEAKS {
+        let bytes = estimate(study, case).memory_bytes as f64;
+        assert!(
+            is_near(bytes / measured),
+            "{study} {case}: {bytes} for {measured} bytes"
+        );
+    }
+}
+
 #[test]
 fn cases_1_and_2_have_the_elements_of_the_source() {
     // [Deng2011] chapter 5: 32,060 elements and 96,180 nodes.
