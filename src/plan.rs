@@ -7,6 +7,7 @@ mod identity;
 mod name;
 mod range;
 mod scaling;
+mod side_by_side;
 mod spelling;
 mod stages;
 mod starter;
@@ -16,6 +17,7 @@ mod write;
 pub use comparison::{COMPARED, Compared, Comparison, Expected, SCALING};
 pub use difference::explain_difference;
 pub use identity::{CaseId, RunId};
+pub use side_by_side::SideBySide;
 pub use spelling::spelled;
 pub use stages::Stages;
 pub use starter::starter;
@@ -41,6 +43,9 @@ pub struct Plan {
     pub scaling: Option<Growth>,
     /// What the results are to be compared with.
     pub comparisons: Vec<Comparison>,
+    /// Other studies whose cases stand beside those of the same name here.
+    pub beside: Vec<String>,
+    pub side_by_side: Vec<SideBySide>,
     pub cases: Vec<PlannedCase>,
     /// What its jobs get on a cluster.
     pub cluster: Cluster,
@@ -74,6 +79,8 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let number = drafts.len();
     let comparisons = comparison::read(study, &drafts, findings);
     let stages = stages::resolve(study, &drafts, findings);
+    let beside = side_by_side::others(study, findings);
+    let side_by_side = side_by_side::resolve(study, &drafts, findings);
     let cluster = study::cluster::resolve(&content.cluster, findings);
     for draft in drafts {
         if let Some(first) = places.insert(draft.name.to_lowercase(), draft.place) {
@@ -109,6 +116,8 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         stages,
         scaling,
         comparisons,
+        beside,
+        side_by_side,
         cases,
         cluster,
         read: study.clone(),

@@ -14,6 +14,7 @@ mod palette;
 mod picture;
 mod precision;
 mod scaling;
+mod side_by_side;
 mod slab;
 mod study;
 mod summary;
@@ -22,7 +23,7 @@ mod toughness;
 mod units;
 
 pub use film::Film;
-pub use study::{CaseResult, Failure, Manifest, Phase, Scaling, Study};
+pub use study::{CaseResult, Failure, Manifest, OtherStudy, Phase, Scaling, Study};
 
 use std::fs;
 use std::io::ErrorKind;
@@ -74,12 +75,15 @@ impl Analysed<'_> {
         Some(self.findings.peak_speed()? / self.rayleigh_speed()?)
     }
 
+    /// Cores taken times wall time, s.
+    fn core_seconds(&self) -> Option<f64> {
+        let manifest = &self.result.manifest;
+        Some(f64::from(manifest.ranks? * manifest.threads?) * manifest.wall_seconds?)
+    }
+
     /// What a simulated picosecond costs, in seconds of one core.
     fn core_seconds_a_picosecond(&self) -> Option<f64> {
-        let manifest = &self.result.manifest;
-        let cores = f64::from(manifest.ranks? * manifest.threads?);
-        let time = self.result.series.probes.last()?.time;
-        let cost = cores * manifest.wall_seconds? / time;
+        let cost = self.core_seconds()? / self.result.series.probes.last()?.time;
         (cost.is_finite() && cost > 0.0).then_some(cost)
     }
 
@@ -92,14 +96,16 @@ impl Analysed<'_> {
 
 /// Writes `report.html`, `report.md`, `tables/` and `figures/` into a folder. Equal inputs give equal bytes.
 pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
-    let cases = analysed(study);
+    let cases = analysed(&study.cases);
+    let others: Vec<Vec<Analysed>> = study.others.iter().map(|other| analysed(&other.cases)).collect();
+    let panels = side_by_side::panels(study, &cases, &others);
     for part in ["tables", "figures"] {
         let path = folder.join(part);
         fs::create_dir_all(&path).map_err(|source| ReportError::Write { path, source })?;
     }
     remove_old(folder)?;
     let scaling = scaling::findings(study, &cases);
-    let mut tables = tables::all(&cases, &study.comparisons, scaling.as_ref())?;
+    let mut tables = tables::all(&cases, &study.comparisons, &panels, scaling.as_ref())?;
     for table in &mut tables {
         table.write(&folder.join("tables"))?;
     }
@@ -123,14 +129,14 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         charts: &charts,
         drawn: &drawn,
         galleries: &galleries,
+        panels: &panels,
     };
     save(&folder.join("report.html"), page.html()?.as_bytes())?;
     save(&folder.join("report.md"), page.markdown()?.as_bytes())
 }
 
-fn analysed(study: &Study) -> Vec<Analysed<'_>> {
-    let findings: Vec<Findings> = study
-        .cases
+fn analysed(cases: &[CaseResult]) -> Vec<Analysed<'_>> {
+    let findings: Vec<Findings> = cases
         .iter()
         .map(|case| {
             case.setting
@@ -139,8 +145,8 @@ fn analysed(study: &Study) -> Vec<Analysed<'_>> {
                 .unwrap_or_default()
         })
         .collect();
-    let conditions: Vec<String> = study.cases.iter().map(conditions).collect();
-    let parts = study.cases.iter().zip(&findings).zip(&conditions);
+    let conditions: Vec<String> = cases.iter().map(conditions).collect();
+    let parts = cases.iter().zip(&findings).zip(&conditions);
     let candidates: Vec<Option<Candidate>> = parts
         .map(|((case, findings), conditions)| candidate(case, findings, conditions))
         .collect();
@@ -155,7 +161,7 @@ fn analysed(study: &Study) -> Vec<Analysed<'_>> {
         .map(Option::unwrap_or_default)
         .collect();
     drop(candidates);
-    let parts = study.cases.iter().zip(findings).zip(references).zip(differences);
+    let parts = cases.iter().zip(findings).zip(references).zip(differences);
     parts
         .map(|(((result, findings), reference), difference)| Analysed {
             result,
@@ -180,11 +186,12 @@ fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings, conditions: &'a s
 
 /// How a specimen is held and set in motion, which its sizes and constants do not tell.
 fn conditions(case: &CaseResult) -> String {
-    const KEYS: [&str; 5] = [
+    const KEYS: [&str; 6] = [
         "specimen.grips",
         "loading.strain-rate.mode",
         "loading.strain-rate.ramp",
         "loading.strain-rate.sponge",
+        "loading.strain-rate.damping",
         "run.relax.strain",
     ];
     let chosen = case.choices.iter().filter(|(key, _)| KEYS.contains(&key.as_str()));
@@ -205,9 +212,15 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
             fs::remove_file(&path).map_err(|source| failed(&path, source))?;
         }
     }
-    for comparison in ["csv", "parquet"].map(|ending| folder.join("tables/comparison").with_extension(ending)) {
-        match fs::remove_file(&comparison) {
-            Err(source) if source.kind() != ErrorKind::NotFound => return Err(failed(&comparison, source)),
+    let optional = [
+        "comparison.csv",
+        "comparison.parquet",
+        "side_by_side.csv",
+        "side_by_side.parquet",
+    ];
+    for table in optional.map(|file| folder.join("tables").join(file)) {
+        match fs::remove_file(&table) {
+            Err(source) if source.kind() != ErrorKind::NotFound => return Err(failed(&table, source)),
             _ => (),
         }
     }

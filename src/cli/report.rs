@@ -1,4 +1,5 @@
 mod gather;
+mod others;
 
 use std::fs;
 use std::path::PathBuf;
@@ -10,6 +11,7 @@ use super::survey::{self, OfResults, Survey};
 use super::terminal::{self, Terminal};
 use crate::report;
 use crate::store::{Program, State};
+use others::Other;
 
 /// `cgaft study report FILE`
 pub fn rebuild_report(arguments: &OfResults) -> Result<u8, CliError> {
@@ -35,16 +37,22 @@ pub struct Built {
 /// Builds the report unless it is there and tells of exactly these runs.
 pub fn bring_up_to_date(survey: &mut Survey) -> Result<Built, CliError> {
     let path = survey.store.root().join("report.html");
-    let current = fs::read_to_string(stamp_path(survey)).is_ok_and(|stamp| stamp == fingerprint(survey));
+    let others = others::survey(survey);
+    let current = fs::read_to_string(stamp_path(survey)).is_ok_and(|stamp| stamp == fingerprint(survey, &others));
     if current && path.exists() {
         let damaged = survey.damaged().next().is_some();
         Ok(Built { path, damaged })
     } else {
-        rebuild(survey)
+        rebuild_beside(survey, &others)
     }
 }
 
 fn rebuild(survey: &mut Survey) -> Result<Built, CliError> {
+    let others = others::survey(survey);
+    rebuild_beside(survey, &others)
+}
+
+fn rebuild_beside(survey: &mut Survey, others: &[Other]) -> Result<Built, CliError> {
     let _lock = survey.store.lock_report()?;
     // A kill while the report is built leaves no stamp that fits.
     stamp(survey, "")?;
@@ -54,8 +62,8 @@ fn rebuild(survey: &mut Survey) -> Result<Built, CliError> {
         damaged = true;
         terminal::warn(&format!("{case}: damaged: {why}; `cgaft study run` computes it again"));
     }
-    let path = build(survey)?;
-    stamp(survey, &fingerprint(survey))?;
+    let path = build(survey, others)?;
+    stamp(survey, &fingerprint(survey, others))?;
     Ok(Built { path, damaged })
 }
 
@@ -72,11 +80,13 @@ fn stamp_path(survey: &Survey) -> PathBuf {
 }
 
 /// Changes with everything that the report shows: the study's text, what it compares with, the program, and what
-/// became of each case.
-fn fingerprint(survey: &Survey) -> String {
-    let endings: Vec<_> = survey
-        .entries
-        .iter()
+/// became of each case, those of other studies too.
+fn fingerprint(survey: &Survey, others: &[Other]) -> String {
+    let surveys = others.iter().filter_map(|other| other.survey.as_ref().ok());
+    let entries = std::iter::once(survey)
+        .chain(surveys)
+        .flat_map(|survey| &survey.entries);
+    let endings: Vec<_> = entries
         .map(|entry| match &entry.state {
             State::Done(manifest) => (&entry.planned.name, &entry.id, "done", Some(manifest.ended)),
             State::Failed(failure) => (&entry.planned.name, &entry.id, "failed", Some(failure.ended)),
@@ -93,8 +103,8 @@ fn fingerprint(survey: &Survey) -> String {
 }
 
 /// Tables, figures and pages from the runs of the store: the one call to `report`.
-fn build(survey: &Survey) -> Result<PathBuf, CliError> {
+fn build(survey: &Survey, others: &[Other]) -> Result<PathBuf, CliError> {
     let folder = survey.store.root();
-    report::write(&gather::gather(survey), folder)?;
+    report::write(&gather::gather(survey, others), folder)?;
     Ok(folder.join("report.html"))
 }

@@ -1,7 +1,7 @@
 //! `report.stages`: a case that the report shows in pictures at strains of interest, and in motion.
 
 use super::expansion::Draft;
-use crate::study::{Finding, Findings, Given, Study, suggestion};
+use crate::study::{Finding, Findings, Given, Place, Study, suggestion};
 use serde::Serialize;
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -23,10 +23,8 @@ pub fn resolve(study: &Study, drafts: &[Draft], findings: &Findings) -> Option<S
     };
     let case = match &stages.of {
         Given::Right(case, at) => {
-            if !drafts.is_empty() && drafts.iter().all(|draft| draft.name != *case) {
-                let names: Vec<&str> = drafts.iter().map(|draft| draft.name.as_str()).collect();
-                let message = format!("the study has no case `{case}`");
-                findings.add(Finding::at(*at, message).help(suggestion(case, &names)));
+            if drafts.iter().all(|draft| draft.name != *case) {
+                refuse_unknown(case, *at, drafts, findings);
             }
             Some(case.clone())
         }
@@ -53,4 +51,14 @@ pub fn resolve(study: &Study, drafts: &[Draft], findings: &Findings) -> Option<S
         case: case?,
         strains: strains?,
     })
+}
+
+/// Tells that no case has this name; where no case could be read at all, that has been told.
+pub fn refuse_unknown(case: &str, at: Place, drafts: &[Draft], findings: &Findings) {
+    if drafts.is_empty() {
+        return;
+    }
+    let names: Vec<&str> = drafts.iter().map(|draft| draft.name.as_str()).collect();
+    let message = format!("the study has no case `{case}`");
+    findings.add(Finding::at(at, message).help(suggestion(case, &names)));
 }

@@ -50,7 +50,7 @@ impl Line<'_> {
 }
 
 /// Counts in full, other numbers rounded.
-fn shown(value: f64) -> String {
+pub fn shown(value: f64) -> String {
     match value.fract() == 0.0 && value >= 1.0 {
         true => count(value as u64),
         false => significant(value, SHOWN_DIGITS),

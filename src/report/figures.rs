@@ -16,6 +16,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
     let mut charts = precision::charts(cases, comparisons);
     charts.extend([
         stress_strain(cases),
+        temperature(cases),
         crack_speed(cases),
         tip_position(cases),
         profile(cases),
@@ -36,8 +37,9 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
 
 /// Whether a report may have drawn a file of this name.
 pub fn is_of_a_report(name: &str) -> bool {
-    const COMMON: [&str; 6] = [
+    const COMMON: [&str; 7] = [
         "stress-strain",
+        "temperature",
         "crack-speed",
         "tip-position",
         "stress-profile",
@@ -85,6 +87,22 @@ fn stress_strain(cases: &[Analysed]) -> Chart {
         x: "nominal strain (%)".to_owned(),
         y: "average σyy (GPa)".to_owned(),
         content: Content::Curves(curves(cases, |case| over_strain(case, |row| row.sigma_yy * GIGAPASCAL))),
+    }
+}
+
+fn temperature(cases: &[Analysed]) -> Chart {
+    Chart {
+        id: "temperature".to_owned(),
+        detail: false,
+        table: "stress_strain",
+        title: "Temperature over strain".to_owned(),
+        caption:
+            "How fast atoms move relative to the mean of the cell of 8 by 8 rows around them. Meshes without atoms \
+                  have no such motion and no curve."
+                .to_owned(),
+        x: "nominal strain (%)".to_owned(),
+        y: "temperature (K)".to_owned(),
+        content: Content::Curves(curves(cases, |case| over_strain(case, |row| row.temperature))),
     }
 }
 

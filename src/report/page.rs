@@ -2,7 +2,8 @@
 
 use super::chart::{Chart, Drawing};
 use super::picture::{Gallery, Picture};
-use super::summary::{self, Group};
+use super::side_by_side::Panel;
+use super::summary::{self, Group, Row};
 use super::tables::Table;
 use super::{Analysed, ReportError, Study, agreement, expected, method, numbers, scaling};
 use crate::plan::Comparison;
@@ -21,6 +22,7 @@ pub struct Page<'a> {
     pub charts: &'a [Chart],
     pub drawn: &'a [Drawing],
     pub galleries: &'a [Gallery],
+    pub panels: &'a [Panel<'a>],
 }
 
 impl Page<'_> {
@@ -54,6 +56,8 @@ impl Page<'_> {
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             scaling => self.scaling.map(|found| self.scaling(found)),
             comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),
+            panels => list(self.panels, panel),
+            missing => self.study.others.iter().filter_map(|other| other.missing.clone()).collect::<Vec<String>>(),
             galleries => list(self.galleries, gallery),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
             tables => list(self.tables, table),
@@ -121,11 +125,17 @@ fn table(table: &Table) -> Value {
 }
 
 fn group(group: &Group) -> Value {
-    let rows = list(
-        &group.rows,
-        |row| context! { label => &row.label, cells => row.cells.clone() },
-    );
-    context! { title => group.title, rows }
+    context! { title => group.title, rows => list(&group.rows, row) }
+}
+
+fn panel(panel: &Panel) -> Value {
+    let heads: Vec<Value> = panel.heads().into_iter().map(Value::from).collect();
+    let (title, across) = (Value::from(panel.title), panel.is_across_studies());
+    context! { title, across, heads, verdicts => panel.verdicts(), rows => list(&panel.rows(), row) }
+}
+
+fn row(row: &Row) -> Value {
+    context! { label => &row.label, cells => row.cells.clone() }
 }
 
 fn case(case: &Analysed) -> Value {

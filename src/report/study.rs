@@ -3,7 +3,7 @@
 use super::film::Film;
 use crate::analysis::series::{Series, Setting};
 use crate::domain::{Burden, MessageCost};
-use crate::plan::{Comparison, Stages};
+use crate::plan::{Comparison, SideBySide, Stages};
 use crate::study::Growth;
 
 /// A study and the results of its cases, in the order in which they are to be shown.
@@ -21,6 +21,10 @@ pub struct Study {
     pub scaling: Option<Scaling>,
     /// What the cases are to be compared with.
     pub comparisons: Vec<Comparison>,
+    /// Studies whose cases stand beside those of the same names here.
+    pub others: Vec<OtherStudy>,
+    /// Cases to be set side by side.
+    pub side_by_side: Vec<SideBySide>,
     pub cases: Vec<CaseResult>,
 }
 
@@ -32,6 +36,16 @@ pub struct Scaling {
     pub burdens: Vec<Burden>,
     /// Times of another program.
     pub compared: Vec<Comparison>,
+}
+
+/// What there is of another study.
+#[derive(Clone, Debug, Default)]
+pub struct OtherStudy {
+    pub name: String,
+    /// Its cases that are done and have the name of one here.
+    pub cases: Vec<CaseResult>,
+    /// What of it is missing, and what to do about it.
+    pub missing: Option<String>,
 }
 
 /// One case: what was asked for, what came out, or why nothing did.

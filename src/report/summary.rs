@@ -29,7 +29,7 @@ pub fn groups(cases: &[Analysed]) -> Vec<Group> {
     let mut groups = vec![
         Group {
             title: "What differs",
-            rows: differing(cases),
+            rows: differing(&cases.iter().map(|case| case.result).collect::<Vec<_>>()),
         },
         Group {
             title: "What it costs",
@@ -153,22 +153,24 @@ pub fn between_arrivals(case: &Analysed) -> Option<f64> {
 }
 
 /// The choices that are not the same in all cases.
-fn differing(cases: &[Analysed]) -> Vec<Row> {
+pub fn differing(cases: &[&CaseResult]) -> Vec<Row> {
     let mut keys: Vec<&str> = Vec::new();
-    for (key, _) in cases.iter().flat_map(|case| &case.result.choices) {
+    for (key, _) in cases.iter().flat_map(|case| &case.choices) {
         if !keys.contains(&key.as_str()) {
             keys.push(key);
         }
     }
+    // A choice may be a word in one case and have parts in another, which then are told in its row.
+    let is_part = |key: &str| keys.iter().any(|whole| part_of(key, whole).is_some());
     let row = |key: &str| Row {
         label: key.to_owned(),
         cells: cases
             .iter()
-            .map(|case| choice(case.result, key).unwrap_or(ABSENT).to_owned())
+            .map(|case| choice(case, key).unwrap_or_else(|| ABSENT.to_owned()))
             .collect(),
     };
     // A case that failed before its choices were known says nothing about them.
-    let known: Vec<bool> = cases.iter().map(|case| !case.result.choices.is_empty()).collect();
+    let known: Vec<bool> = cases.iter().map(|case| !case.choices.is_empty()).collect();
     let varies = |row: &Row| {
         let mut cells = row
             .cells
@@ -179,14 +181,26 @@ fn differing(cases: &[Analysed]) -> Vec<Row> {
         let first = cells.next();
         cells.any(|cell| Some(cell) != first)
     };
-    keys.into_iter().map(row).filter(varies).collect()
+    let whole = keys.iter().filter(|key| !is_part(key));
+    whole.map(|key| row(key)).filter(varies).collect()
 }
 
-fn choice<'a>(case: &'a CaseResult, key: &str) -> Option<&'a str> {
-    case.choices
+/// A choice in words, that of its parts where it has some: `gauss 2`.
+fn choice(case: &CaseResult, key: &str) -> Option<String> {
+    if let Some((_, value)) = case.choices.iter().find(|choice| choice.0 == key) {
+        return Some(value.clone());
+    }
+    let parts = case
+        .choices
         .iter()
-        .find(|choice| choice.0 == key)
-        .map(|choice| choice.1.as_str())
+        .filter_map(|(inner, value)| Some(format!("{} {value}", part_of(inner, key)?.replace('.', " "))));
+    let parts: Vec<String> = parts.collect();
+    (!parts.is_empty()).then(|| parts.join(", "))
+}
+
+/// What a key adds to that of a whole.
+fn part_of<'a>(key: &'a str, whole: &str) -> Option<&'a str> {
+    key.strip_prefix(whole)?.strip_prefix('.')
 }
 
 fn row(cases: &[Analysed], label: &str, cell: impl Fn(&Analysed) -> Option<String>) -> Row {

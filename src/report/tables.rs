@@ -7,6 +7,7 @@ use polars::prelude::*;
 use super::ahead::{Ahead, profile_at_initiation};
 use super::numbers::{self, round_significant};
 use super::precision::{self, Quantity};
+use super::side_by_side::{self, Panel};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
 use super::{Analysed, ReportError, branching, expected, save, scaling, toughness};
 use crate::analysis::waves::{Arrival, Face, Wave};
@@ -30,6 +31,7 @@ pub struct Table {
 pub fn all(
     cases: &[Analysed],
     comparisons: &[Comparison],
+    panels: &[Panel],
     scaling: Option<&scaling::Findings>,
 ) -> Result<Vec<Table>, ReportError> {
     let own = [
@@ -60,6 +62,9 @@ pub fn all(
     }
     if !comparisons.is_empty() {
         tables.push(make(("comparison", expected::columns(comparisons, &tables)))?);
+    }
+    if !panels.is_empty() {
+        tables.push(make(("side_by_side", side_by_side::columns(panels)))?);
     }
     Ok(tables)
 }
@@ -161,7 +166,7 @@ impl<T> Rows<T> {
         )
     }
 
-    fn flag(&self, name: &str, of: impl Fn(&T) -> Option<bool>) -> Column {
+    pub fn flag(&self, name: &str, of: impl Fn(&T) -> Option<bool>) -> Column {
         Column::new(name.into(), self.0.iter().map(of).collect::<Vec<Option<bool>>>())
     }
 }

@@ -36,6 +36,6 @@ pub fn burdens(case: &Case, ranks: u32, growth: Growth, counts: &[u32]) -> Resul
 fn of(case: &Case, counts: &[u32]) -> Result<Vec<Burden>, SetupError> {
     let material = material(case)?;
     let plan = mesh_plan(case, &material)?;
-    refuse_what_does_not_fit(&plan)?;
+    refuse_what_does_not_fit(&plan, 1)?;
     Ok(forces::burdens(&Mesh::new(&plan), &material, counts))
 }

@@ -4,6 +4,7 @@
 
 mod cluster;
 mod material;
+mod report;
 
 use super::{
     named::{Named, Sweep},
@@ -16,6 +17,7 @@ use serde::Deserialize;
 pub use super::quantity::Interval;
 pub use cluster::ClusterFile;
 pub use material::*;
+pub use report::*;
 
 /// A study: a question, cases that answer it, and what to show.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
@@ -41,47 +43,6 @@ pub struct StudyFile {
     pub compare: Given<Named<String>>,
     pub report: Given<Report>,
     pub cluster: Given<ClusterFile>,
-}
-
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
-pub struct Report {
-    /// Headline of the report; the name of the study where left out.
-    pub title: Given<String>,
-    /// A case to be shown in pictures at strains of interest, and in motion.
-    pub stages: Given<Stages>,
-    /// The cases differ in `run.ranks`, to learn what ranks gain: every case has a run of its own, and the report shows
-    /// speedup and efficiency.
-    pub scaling: Given<Growth>,
-}
-
-/// What becomes of the specimen when there are more ranks.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case")]
-pub enum Growth {
-    /// It stays the same, so that each rank gets less of it.
-    Fixed,
-    /// It becomes as many times wider, so that each rank gets as much of it.
-    Scaled,
-}
-
-impl Growth {
-    /// Size of the specimen of so many ranks over that of one.
-    pub fn with(self, ranks: u32) -> f64 {
-        match self {
-            Growth::Fixed => 1.0,
-            Growth::Scaled => f64::from(ranks),
-        }
-    }
-}
-
-/// The pictures nearest to these strains are shown, and all pictures one after the other.
-#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
-#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
-pub struct Stages {
-    /// Name of the case.
-    pub of: Given<String>,
-    pub strains: Given<Vec<Given<Fraction>>>,
 }
 
 /// One case, or the base that all cases start from.
@@ -207,6 +168,9 @@ pub struct StrainRate {
     pub ramp: Given<Ramp>,
     /// Width of a layer before each grip that takes waves out, so that few come back; none where left out.
     pub sponge: Given<Length>,
+    /// Rate at which velocities everywhere approach those of even stretching, which takes heat out, and waves as fast;
+    /// none where left out.
+    pub damping: Given<Rate>,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]

@@ -1,5 +1,6 @@
 //! Studies from the file to the report, with the real programs.
 
+mod beside;
 mod checkpoint;
 mod damage;
 mod failure;

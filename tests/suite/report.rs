@@ -7,6 +7,7 @@ mod figures;
 mod parquet;
 mod precision;
 mod scaling;
+mod side_by_side;
 mod verdict;
 
 use std::collections::BTreeMap;
@@ -155,6 +156,8 @@ fn three_meshes() -> Study {
         stages: None,
         scaling: None,
         comparisons: Vec::new(),
+        others: Vec::new(),
+        side_by_side: Vec::new(),
         cases: vec![
             finished("coarse", 10, 3_300, 0.0242, 1.9),
             finished("mixed", 1, 11_800, 0.0182, 7.4),

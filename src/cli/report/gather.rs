@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
+use super::others::Other;
 use crate::analysis::series::{Series, Setting};
 use crate::cli::survey::{Entry, Survey};
 use crate::domain::MessageCost;
@@ -15,7 +16,7 @@ use crate::setup;
 use crate::store::{self, Attempt, State};
 
 /// A study with the results of all its cases, also of those that failed or are missing.
-pub fn gather(survey: &Survey) -> Study {
+pub fn gather(survey: &Survey, others: &[Other]) -> Study {
     let scaling = scaling(survey);
     let mut comparisons = survey.plan.comparisons.clone();
     if scaling.is_some() {
@@ -29,7 +30,13 @@ pub fn gather(survey: &Survey) -> Study {
         stages: survey.plan.stages.clone(),
         scaling,
         comparisons,
-        cases: survey.entries.iter().map(|entry| case_result(survey, entry)).collect(),
+        others: others.iter().map(|other| other.gather(survey)).collect(),
+        side_by_side: survey.plan.side_by_side.clone(),
+        cases: survey
+            .entries
+            .iter()
+            .map(|entry| case_result(survey, entry, true))
+            .collect(),
     }
 }
 
@@ -52,7 +59,8 @@ fn scaling(survey: &Survey) -> Option<Scaling> {
     })
 }
 
-fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
+/// What became of a case, with its pictures if they are wanted.
+pub fn case_result(survey: &Survey, entry: &Entry, with_film: bool) -> CaseResult {
     let mut choices = Vec::new();
     flatten(&plan::spelled(&entry.planned.case), "", &mut choices);
     let mut result = CaseResult {
@@ -71,7 +79,7 @@ fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
             result.manifest = manifest(done);
             let folder = survey.store.run_folder(&entry.id);
             result.digest = survey.plan.scaling.and_then(|_| digest(&folder));
-            match read_run(&folder) {
+            match read_run(&folder, with_film) {
                 Ok((setting, series, film)) => {
                     result.setting = Some(setting);
                     result.series = series;
@@ -96,7 +104,7 @@ fn case_result(survey: &Survey, entry: &Entry) -> CaseResult {
 
 /// What a failed run has kept; that nothing can be read is no second failure.
 fn set_kept(result: &mut CaseResult, folder: &Path) {
-    if let Ok((setting, series, film)) = read_run(folder) {
+    if let Ok((setting, series, film)) = read_run(folder, true) {
         result.setting = Some(setting);
         result.series = series;
         result.film = film;
@@ -115,13 +123,13 @@ fn digest(folder: &Path) -> Option<String> {
     Some(hash.finalize().to_hex().to_string())
 }
 
-/// What a run has left: setting, series and, if it took any, pictures.
+/// What a run has left: setting, series and, if it took any and they are wanted, pictures.
 type Run = (Setting, Series, Option<Film>);
 
-fn read_run(folder: &Path) -> Result<Run, RecordError> {
+fn read_run(folder: &Path, with_film: bool) -> Result<Run, RecordError> {
     let (setting, series) = record::read_series(&folder.join(SERIES_FILE))?;
     let fields: PathBuf = folder.join(FIELDS_FILE);
-    if !fields.exists() {
+    if !with_film || !fields.exists() {
         return Ok((setting, series, None));
     }
     let (mesh, frames) = record::read_fields(&fields)?;

@@ -1,0 +1,120 @@
+//! Cases side by side: those of one name in several studies, and those of this study that it sets side by side.
+
+mod agreement;
+mod quantity;
+
+use polars::prelude::Column;
+
+use super::numbers::ABSENT;
+use super::summary::{self, Row};
+use super::tables::Rows;
+use super::{Analysed, CaseResult, Study};
+use crate::plan::SideBySide;
+use quantity::Quantity;
+
+/// Cases side by side; the others are measured against the first.
+pub struct Panel<'a> {
+    /// The name of all of them, or what the study sets them side by side for.
+    pub title: &'a str,
+    sides: Vec<Side<'a>>,
+    /// `None` where the cases are those of one name in several studies.
+    set: Option<&'a SideBySide>,
+}
+
+/// One of them.
+struct Side<'a> {
+    study: &'a str,
+    case: &'a Analysed<'a>,
+}
+
+/// The cases of this study that stand in others too, and the sets of cases that it names; `others` are the cases of
+/// `study.others`.
+pub fn panels<'a>(study: &'a Study, cases: &'a [Analysed<'a>], others: &'a [Vec<Analysed<'a>>]) -> Vec<Panel<'a>> {
+    let side = |study, case| Side { study, case };
+    let named = |cases: &'a [Analysed<'a>], name: &str| cases.iter().find(|case| case.name() == name);
+    let across = cases.iter().map(|case| {
+        let elsewhere = study.others.iter().zip(others);
+        let elsewhere = elsewhere.filter_map(|(other, cases)| Some(side(&other.name, named(cases, case.name())?)));
+        Panel {
+            title: case.name(),
+            sides: std::iter::once(side(&study.name, case)).chain(elsewhere).collect(),
+            set: None,
+        }
+    });
+    let within = study.side_by_side.iter().map(|set| {
+        let found = set
+            .cases
+            .iter()
+            .filter_map(|name| Some(side(&study.name, named(cases, name)?)));
+        Panel {
+            title: &set.name,
+            sides: found.collect(),
+            set: Some(set),
+        }
+    });
+    across.chain(within).filter(|panel| panel.sides.len() > 1).collect()
+}
+
+impl Panel<'_> {
+    /// Whether the cases are those of one name in several studies.
+    pub fn is_across_studies(&self) -> bool {
+        self.set.is_none()
+    }
+
+    pub fn heads(&self) -> Vec<&str> {
+        let sides = self.sides.iter();
+        match self.set {
+            None => sides.map(|side| side.study).collect(),
+            Some(_) => sides.map(|side| side.case.name()).collect(),
+        }
+    }
+
+    /// What differs between the cases, and what comes out; in brackets how far from the first.
+    pub fn rows(&self) -> Vec<Row> {
+        let results: Vec<&CaseResult> = self.sides.iter().map(|side| side.case.result).collect();
+        let mut rows = summary::differing(&results);
+        let cells = |quantity: Quantity| {
+            let first = quantity.value(self.first());
+            let cell = |(index, side): (usize, &Side)| match quantity.value(side.case) {
+                None => ABSENT.to_owned(),
+                Some(value) => quantity.shown(value, first.filter(|_| index > 0)),
+            };
+            self.sides.iter().enumerate().map(cell).collect::<Vec<String>>()
+        };
+        rows.extend(Quantity::all().into_iter().map(|quantity| Row {
+            label: quantity.label(),
+            cells: cells(quantity),
+        }));
+        rows.retain(|row| row.cells.iter().any(|cell| cell != ABSENT));
+        rows
+    }
+
+    fn first(&self) -> &Analysed<'_> {
+        self.sides[0].case
+    }
+}
+
+/// The columns of the table of all panels.
+pub fn columns(panels: &[Panel]) -> Vec<Column> {
+    let rows = panels.iter().flat_map(|panel| {
+        let others = panel.sides.iter().skip(1);
+        others.flat_map(move |side| Quantity::all().into_iter().map(move |quantity| (panel, side, quantity)))
+    });
+    let rows = Rows(rows.collect());
+    let value = |row: &(&Panel, &Side, Quantity)| row.2.value(row.1.case);
+    let first = |row: &(&Panel, &Side, Quantity)| row.2.value(row.0.first());
+    vec![
+        rows.text("set", |row| row.0.title),
+        rows.text("first_study", |row| row.0.sides[0].study),
+        rows.text("first_case", |row| row.0.first().name()),
+        rows.text("study", |row| row.1.study),
+        rows.text("case", |row| row.1.case.name()),
+        rows.text("quantity", |row| row.2.column()),
+        rows.number("first", first),
+        rows.number("value", value),
+        rows.number("difference", |row| Some(value(row)? - first(row)?)),
+        rows.number("relative_difference", |row| Some(value(row)? / first(row)? - 1.0)),
+        rows.number("allowed", |row| row.0.allowed(row.2)),
+        rows.flag("agrees", |row| row.0.agrees(row.2, row.1)),
+    ]
+}
