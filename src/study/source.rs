@@ -28,7 +28,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 11] = [
+pub static SHIPPED: [Shipped; 12] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml"),
@@ -45,6 +45,7 @@ pub static SHIPPED: [Shipped; 11] = [
     shipped!("models-A-E-mixed.yaml"),
     shipped!("models-A-E-atoms.yaml"),
     shipped!("branching-control.yaml"),
+    shipped!("convergence-D.yaml"),
     shipped!("scaling-fixed.yaml", "scaling/table-4-2.csv"),
     shipped!("scaling-scaled.yaml", "scaling/table-4-3.csv"),
 ];
