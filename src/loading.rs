@@ -4,7 +4,7 @@ mod impulse;
 mod sponge;
 
 pub use impulse::Impulse;
-pub use sponge::Sponge;
+pub use sponge::{Layers, Sponge};
 
 use std::ops::Range;
 
@@ -67,7 +67,7 @@ impl Stretching {
         Self { pre_strain, ..self }
     }
 
-    /// The same with layers before the grips that take waves out.
+    /// The same with what damps the specimen.
     pub fn with_sponge(self, sponge: Option<Sponge>) -> Self {
         Self { sponge, ..self }
     }

@@ -19,7 +19,7 @@ use std::time::Duration;
 use crate::domain::Ranks;
 use crate::forces::Summation;
 use crate::lattice::triangular;
-use crate::loading::{Grip, Sponge, Stretching};
+use crate::loading::{Grip, Layers, Sponge, Stretching};
 use crate::material::{Material, WaveSpeeds};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::Layout;
@@ -157,6 +157,7 @@ pub fn shared_solver(case: &Case, ranks: Ranks) -> Result<Solver, SetupError> {
         rate,
         ramp,
         sponge,
+        damping,
     } = case.loading;
     let grip = match case.specimen.grips {
         case::Grips::Clamped => Grip::Clamped,
@@ -164,7 +165,9 @@ pub fn shared_solver(case: &Case, ranks: Ranks) -> Result<Solver, SetupError> {
     };
     let loading = Stretching::new(&mesh, rate, grip, ramp == case::Ramp::InitialVelocity);
     let wave_speed = WaveSpeeds::of(&material).longitudinal;
-    let sponge = sponge.map(|width| Sponge::new(&mesh, width, wave_speed, rate));
+    let layers = sponge.map(|width| Layers { width, wave_speed });
+    let is_damped = layers.is_some() || damping.is_some();
+    let sponge = is_damped.then(|| Sponge::new(&mesh, rate, layers, damping.unwrap_or(0.0)));
     let loading = loading.from_strain(case.run.relax.unwrap_or(0.0)).with_sponge(sponge);
     Ok(Solver::shared(ranks, mesh, material, loading, settings(case, rate))?)
 }

@@ -35,7 +35,7 @@ pub struct Probe {
     /// eV; potential relative to the start of the run, kinetic in full.
     pub kinetic: f64,
     pub potential: f64,
-    /// Work of the grips since the start, less what sponge layers took out, eV.
+    /// Work of the grips since the start, less what sponges and damping took out, eV.
     pub work: f64,
     /// Energy gained where pairs crossed the cutoff since the start, eV.
     pub cutoff_release: f64,

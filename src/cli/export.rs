@@ -120,10 +120,14 @@ fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
             "The time step is the one cgaft starts with; cgaft shortens it should the specimen stiffen.".to_owned(),
         );
     }
-    let case::Loading::StrainRate { sponge, .. } = planned.case.loading;
+    let case::Loading::StrainRate { sponge, damping, .. } = planned.case.loading;
     if sponge.is_some() {
         head.push(String::new());
         head.push("The sponge layers of the case are left out: its waves come back from the grips.".to_owned());
+    }
+    if damping.is_some() {
+        head.push(String::new());
+        head.push("The damping of the case is left out: it gets as hot as it gets.".to_owned());
     }
     if until.crack_length.is_some() || until.arrest.is_some() {
         head.push(String::new());

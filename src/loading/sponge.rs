@@ -1,6 +1,9 @@
-//! Layers before the grips that take waves out of the specimen, so that none come back.
+//! Damping: layers before the grips that take waves out of the specimen, so that none come back, and what takes heat out of
+//! the whole.
 
 use std::ops::Range;
+
+use rayon::prelude::*;
 
 use crate::domain::Ranks;
 use crate::mesh::Mesh;
@@ -10,8 +13,10 @@ use crate::state::State;
 /// exp(-this): a hundredth.
 const LOSS: f64 = 4.6;
 
-/// Damps the velocity relative to that of even stretching, by a rate that grows with the square of the depth, so that it
-/// sets in too gently to throw waves back itself. Slow stretching of the whole is left alone.
+/// Elements in one parallel task.
+const TASK: usize = 4096;
+
+/// Damps the velocity relative to that of even stretching, which is left alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sponge {
     elements: Vec<Soaked>,
@@ -22,7 +27,17 @@ pub struct Sponge {
     time: f64,
 }
 
-/// An element within a layer.
+/// Layers before both grips. They damp by a rate that grows with the square of the depth, so that they set in too gently to
+/// throw waves back themselves.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Layers {
+    /// nm
+    pub width: f64,
+    /// Of the waves that they take out, nm/ps.
+    pub wave_speed: f64,
+}
+
+/// An element that is damped.
 #[derive(Clone, Debug, PartialEq)]
 struct Soaked {
     /// Number of its first node among the nodes and, where it is a triangle, its number among the triangles.
@@ -37,17 +52,16 @@ struct Soaked {
 }
 
 impl Sponge {
-    /// Layers of a width (nm) before both grips, for waves of a speed (nm/ps) in a specimen stretched at a rate (1/ps).
-    pub fn new(mesh: &Mesh, width: f64, wave_speed: f64, rate: f64) -> Self {
+    /// In a specimen stretched at a rate (1/ps): layers, and what damps the whole (1/ps).
+    pub fn new(mesh: &Mesh, rate: f64, layers: Option<Layers>, everywhere: f64) -> Self {
         let [low, high] = mesh.grip_edges();
         let middle = 0.5 * (low + high);
-        // The square of the depth has a mean of a third; the way is twice the width.
-        let most = 3.0 * LOSS * wave_speed / width;
         let mut elements = Vec::new();
         for (number, element) in mesh.elements.iter().enumerate() {
             let height = element.centre()[1] * mesh.spacing;
-            let depth = ((low + width - height).max(height - high + width) / width).min(1.0);
-            if depth <= 0.0 || mesh.grip_of(element) != 0 {
+            let in_layers = layers.map_or(0.0, |layers| layers.damping(height, [low, high]));
+            let damping = everywhere + in_layers;
+            if damping <= 0.0 || mesh.grip_of(element) != 0 {
                 continue;
             }
             let mut stretching = [0.0; 3];
@@ -57,7 +71,7 @@ impl Sponge {
             elements.push(Soaked {
                 first: mesh.first_node(number),
                 triangle: (number < mesh.triangles).then_some(number),
-                damping: most * depth * depth,
+                damping,
                 kept: 1.0,
                 stretching,
             });
@@ -69,7 +83,7 @@ impl Sponge {
         }
     }
 
-    /// Elements in the layers.
+    /// Elements that are damped.
     pub fn size(&self) -> usize {
         self.elements.len()
     }
@@ -82,11 +96,30 @@ impl Sponge {
                 element.kept = (-element.damping * time).exp();
             }
         }
-        for (element, absorbed) in self.elements.iter().zip(&mut self.absorbed) {
-            if element.is_within(nodes) {
-                *absorbed += element.absorb(state);
-            }
+        let State {
+            velocity: [x, y],
+            mass,
+            coupling,
+            ..
+        } = state;
+        let (mut x, mut y, mut from) = (x.as_mut_slice(), y.as_mut_slice(), 0);
+        let mut tasks = Vec::new();
+        for (elements, absorbed) in self.elements.chunks(TASK).zip(self.absorbed.chunks_mut(TASK)) {
+            // Elements are numbered as their nodes are, so that every task has nodes of its own.
+            let end = elements.last().map_or(from, |last| last.nodes().end);
+            let own = [&mut x, &mut y].map(|plane| plane.split_off_mut(..end - from).unwrap_or_default());
+            tasks.push((elements, absorbed, own, from));
+            from = end;
         }
+        tasks.into_par_iter().for_each(|(elements, absorbed, mut own, from)| {
+            for (element, absorbed) in elements.iter().zip(absorbed) {
+                if element.is_within(nodes) {
+                    let coupling = element.triangle.and_then(|number| coupling.get(number)).copied();
+                    let [mass, coupling] = [mass[element.first], coupling.unwrap_or(0.0)];
+                    *absorbed += element.absorb(&mut own, from, mass, coupling);
+                }
+            }
+        });
     }
 
     /// What was taken from each element so far, from all ranks, which must call this together, eV.
@@ -102,20 +135,32 @@ impl Sponge {
     }
 }
 
+impl Layers {
+    /// The rate at a height between the grips, 1/ps.
+    fn damping(self, height: f64, [low, high]: [f64; 2]) -> f64 {
+        let width = self.width;
+        let depth = ((low + width - height).max(height - high + width) / width).clamp(0.0, 1.0);
+        // The square of the depth has a mean of a third; the way is twice the width.
+        3.0 * LOSS * self.wave_speed / width * depth * depth
+    }
+}
+
 impl Soaked {
+    fn nodes(&self) -> Range<usize> {
+        self.first..self.first + if self.triangle.is_some() { 3 } else { 1 }
+    }
+
     fn is_within(&self, nodes: &[Range<usize>]) -> bool {
         nodes.iter().any(|range| range.contains(&self.first))
     }
 
-    /// Damps the element; the kinetic energy that this takes, eV.
-    fn absorb(&self, state: &mut State) -> f64 {
-        let nodes = self.first..self.first + if self.triangle.is_some() { 3 } else { 1 };
-        let coupling = self.triangle.and_then(|number| state.coupling.get(number)).copied();
-        let coupling = coupling.unwrap_or(0.0);
-        let mass = state.mass[self.first];
+    /// Damps the element, whose mass and coupling these are, in velocities that begin with those of node `from`; the kinetic
+    /// energy that this takes, eV.
+    fn absorb(&self, velocity: &mut [&mut [f64]; 2], from: usize, mass: f64, coupling: f64) -> f64 {
+        let nodes = self.nodes();
         let mut taken = 0.0;
-        for axis in 0..2 {
-            let velocity = &mut state.velocity[axis][nodes.clone()];
+        for (axis, plane) in velocity.iter_mut().enumerate() {
+            let velocity = &mut plane[nodes.start - from..nodes.end - from];
             let before = squared_speed(velocity, coupling);
             for (speed, stretching) in velocity.iter_mut().zip(self.stretching) {
                 let even = if axis == 1 { stretching } else { 0.0 };
@@ -159,6 +204,10 @@ mod tests {
         (mesh, state)
     }
 
+    fn layers(width: f64) -> Layers {
+        Layers { width, wave_speed: 9.0 }
+    }
+
     #[test]
     fn even_stretching_goes_through_a_sponge_undamped() {
         let (mesh, mut state) = specimen();
@@ -168,7 +217,7 @@ mod tests {
             *speed = RATE * (height - 0.5 * (low + high));
         }
         let before = state.clone();
-        let mut sponge = Sponge::new(&mesh, 10.0, 9.0, RATE);
+        let mut sponge = Sponge::new(&mesh, RATE, Some(layers(10.0)), 0.0);
         assert!(!sponge.elements.is_empty());
         let nodes = state.every_node();
         sponge.absorb(&mut state, &nodes, 0.1);
@@ -186,7 +235,7 @@ mod tests {
             .collect::<Vec<_>>();
         state.velocity = [speeds.clone(), speeds];
         let before = state.kinetic_energy();
-        let mut sponge = Sponge::new(&mesh, 10.0, 9.0, RATE);
+        let mut sponge = Sponge::new(&mesh, RATE, Some(layers(10.0)), 0.0);
         let nodes = state.every_node();
         sponge.absorb(&mut state, &nodes, 0.1);
         let taken: f64 = sponge.absorbed(Ranks::alone()).iter().sum();
@@ -198,7 +247,7 @@ mod tests {
     fn the_middle_of_the_specimen_and_the_grips_are_left_alone() {
         let (mesh, mut state) = specimen();
         state.velocity[0].fill(1.0);
-        let mut sponge = Sponge::new(&mesh, 5.0, 9.0, RATE);
+        let mut sponge = Sponge::new(&mesh, RATE, Some(layers(5.0)), 0.0);
         let nodes = state.every_node();
         sponge.absorb(&mut state, &nodes, 0.1);
         let [low, high] = mesh.grip_edges();
@@ -207,6 +256,24 @@ mod tests {
             let inside = mesh.grip_of(element) == 0 && (height < low + 5.0 || height > high - 5.0);
             let first = mesh.first_node(number);
             assert_eq!(state.velocity[0][first] < 1.0, inside, "{height}");
+        }
+    }
+
+    #[test]
+    fn damping_everywhere_leaves_of_motion_between_the_grips_the_same_share_in_every_element() {
+        let (mesh, mut state) = specimen();
+        state.velocity[0].fill(1.0);
+        let mut damping = Sponge::new(&mesh, RATE, None, 0.5);
+        let nodes = state.every_node();
+        for _ in 0..10 {
+            damping.absorb(&mut state, &nodes, 0.1);
+        }
+        let free = mesh.elements.iter().enumerate();
+        let mut free = free.filter(|(_, element)| mesh.grip_of(element) == 0).peekable();
+        assert!(free.peek().is_some());
+        for (number, _) in free {
+            let kept = state.velocity[0][mesh.first_node(number)];
+            assert!((kept - (-0.5_f64).exp()).abs() < 1e-14, "{kept}");
         }
     }
 }

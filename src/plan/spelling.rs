@@ -134,6 +134,7 @@ fn load(loading: &Loading) -> Value {
         rate,
         ramp,
         sponge,
+        damping,
     } = *loading;
     let ramp = match ramp {
         Ramp::InitialVelocity => "initial-velocity",
@@ -142,6 +143,9 @@ fn load(loading: &Loading) -> Value {
     let mut spelled = json!({ "mode": "I", "rate": quantity(rate, Dimension::Rate), "ramp": ramp });
     if let Some(width) = sponge {
         spelled["sponge"] = length(width);
+    }
+    if let Some(rate) = damping {
+        spelled["damping"] = quantity(rate, Dimension::Rate);
     }
     json!({ "strain-rate": spelled })
 }

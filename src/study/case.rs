@@ -136,6 +136,9 @@ pub enum Loading {
         /// Width of a layer before each grip that takes waves out, nm.
         #[serde(skip_serializing_if = "Option::is_none")]
         sponge: Option<f64>,
+        /// Rate at which velocities everywhere approach those of even stretching, 1/ps.
+        #[serde(skip_serializing_if = "Option::is_none")]
+        damping: Option<f64>,
     },
 }
 

@@ -49,7 +49,7 @@ field_by_field! {
     Specimen { lattice length width block grips }
     Resolution { element regions }
     Crack { edge length }
-    StrainRate { mode rate ramp sponge }
+    StrainRate { mode rate ramp sponge damping }
     Run { until time_step summation mass relax ranks threads checkpoint_every }
     Relax { strain }
     Until { strain time crack_length arrest }

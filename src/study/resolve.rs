@@ -187,6 +187,7 @@ fn example(path: &str, dimension: units::Dimension) -> &'static str {
         Some("thickness") => "0.2087 nm",
         Some("half-width" | "radius") => "9 nm",
         Some("sponge") => "60 nm",
+        Some("damping") => "2e10 /s",
         _ if path == "probes.every" => "1 ps",
         _ if path == "run.time-step" => "2 fs",
         _ if path == "crack.length" => "56 nm",

@@ -1,5 +1,6 @@
 //! The run in time: conservation, stability, restart.
 
+mod damped;
 mod relaxed;
 
 use std::convert::Infallible;

@@ -40,12 +40,14 @@ impl Check<'_> {
             Given::Right(file::Ramp::AtRest, _) => Some(Ramp::AtRest),
         };
         let sponge = self.sponge(&values.sponge, specimen);
+        let damping = self.size_if_given(&values.damping, "strain-rate.damping");
         let (rate, _) = self.size(&values.rate, place, "strain-rate.rate")?;
         Some(Loading::StrainRate {
             mode: mode?,
             rate,
             ramp: ramp?,
             sponge: sponge?,
+            damping: damping?.map(|(damping, _)| damping),
         })
     }
 

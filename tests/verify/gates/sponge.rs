@@ -2,7 +2,7 @@
 
 use cgaft::forces::Forces;
 use cgaft::integrator::{kick, kick_and_drift};
-use cgaft::loading::{Grip, Sponge, Stretching};
+use cgaft::loading::{Grip, Layers, Sponge, Stretching};
 use cgaft::state::State;
 
 use super::pulses::bar_across_rows;
@@ -40,7 +40,11 @@ fn reflection(wavelength: f64, with_sponge: bool) -> f64 {
     }
     let mut grips = Stretching::new(&mesh, 0.0, Grip::Clamped, false);
     if with_sponge {
-        grips = grips.with_sponge(Some(Sponge::new(&mesh, WIDTH * spacing, WAVE_SPEED, 0.0)));
+        let layers = Layers {
+            width: WIDTH * spacing,
+            wave_speed: WAVE_SPEED,
+        };
+        grips = grips.with_sponge(Some(Sponge::new(&mesh, 0.0, Some(layers), 0.0)));
     }
     grips.hold(&mut state);
     ghosts.hold(&mut state);
