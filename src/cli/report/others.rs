@@ -36,18 +36,12 @@ pub fn survey(survey: &Survey) -> Vec<Other> {
 impl Other {
     /// Its cases that have the name of one of `own`, and what is missing of them.
     pub fn gather(&self, own: &Survey) -> OtherStudy {
-        let other = match &self.survey {
-            Ok(other) => other,
-            Err(_) => {
-                let missing = format!(
-                    "{}: cannot be read; `cgaft study check {}` tells why.",
-                    self.file, self.file
-                );
-                return OtherStudy {
-                    missing: Some(missing),
-                    ..OtherStudy::default()
-                };
-            }
+        let Ok(other) = &self.survey else {
+            let file = &self.file;
+            return OtherStudy {
+                missing: Some(format!("{file}: cannot be read; `cgaft study check {file}` tells why.")),
+                ..OtherStudy::default()
+            };
         };
         let is_known = |name: &str| own.plan.cases.iter().any(|case| case.name == name);
         let alike = other.entries.iter().filter(|entry| is_known(&entry.planned.name));
