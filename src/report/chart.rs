@@ -1,5 +1,7 @@
 //! Line charts: what they show, apart from how they are drawn.
 
+mod labels;
+mod legend;
 pub mod ranks;
 pub mod scatter;
 
@@ -7,11 +9,11 @@ use std::fmt::Display;
 use std::sync::Once;
 
 use plotters::coord::types::RangedCoordf64;
-use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
 use super::{ReportError, numbers, palette};
+use legend::Legend;
 use ranks::OverRanks;
 use scatter::Scatter;
 
@@ -77,13 +79,18 @@ impl Chart {
             figure: self.id.clone(),
             reason: error.to_string(),
         };
+        prepare_fonts();
+        let curves = match &self.content {
+            Content::Curves(curves) => curves.as_slice(),
+            Content::Points(_) | Content::Ranks(_) => &[],
+        };
+        let legend = Legend::of(curves).map_err(|error| failed(&error))?;
+        let size = (WIDTH as i32 * FINE, HEIGHT as i32 * FINE + legend.extra());
         let mut svg = String::new();
-        let size = (WIDTH * FINE as u32, HEIGHT * FINE as u32);
         {
-            prepare_fonts();
-            let root = SVGBackend::with_string(&mut svg, size).into_drawing_area();
+            let root = SVGBackend::with_string(&mut svg, (size.0 as u32, size.1 as u32)).into_drawing_area();
             let drawn = match &self.content {
-                Content::Curves(curves) => self.draw_on(curves, &root),
+                Content::Curves(curves) => self.draw_on(curves, &legend, &root),
                 Content::Points(scatter) => scatter.draw_on(&root, [&self.x, &self.y]),
                 Content::Ranks(over_ranks) => over_ranks.draw_on(&root, [&self.x, &self.y]),
             };
@@ -92,11 +99,11 @@ impl Chart {
         }
         let start = svg.find('\n').ok_or_else(|| failed(&"the drawing is empty"))?;
         let end = svg.rfind("</svg>").ok_or_else(|| failed(&"the drawing has no end"))?;
-        Ok(self.wrap(&svg[start + 1..end]))
+        Ok(self.wrap(&svg[start + 1..end], size))
     }
 
     /// Gives the drawing a name and a description for those who cannot see it.
-    fn wrap(&self, body: &str) -> Drawing {
+    fn wrap(&self, body: &str, (wide, high): (i32, i32)) -> Drawing {
         let escape = |text: &str| {
             text.replace('&', "&amp;")
                 .replace('<', "&lt;")
@@ -104,9 +111,9 @@ impl Chart {
                 .replace('"', "&quot;")
         };
         let (id, title, about) = (&self.id, escape(&self.title), escape(&self.describe()));
-        let (wide, high) = (WIDTH as i32 * FINE, HEIGHT as i32 * FINE);
+        let height = high / FINE;
         let head = format!(
-            "width=\"{WIDTH}\" height=\"{HEIGHT}\" viewBox=\"0 0 {wide} {high}\" role=\"img\" \
+            "width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-about\">\n\
              <title id=\"{id}-title\">{title}</title>\n<desc id=\"{id}-about\">{about}</desc>\n\
              <g aria-hidden=\"true\">\n{body}</g>\n</svg>\n"
@@ -154,17 +161,18 @@ impl Chart {
     fn draw_on<DB: DrawingBackend>(
         &self,
         curves: &[Curve],
+        legend: &Legend,
         root: &DrawingArea<DB, plotters::coord::Shift>,
     ) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
         root.fill(&WHITE)?;
-        let legend = draw_legend(curves, root)?;
+        legend.draw(root)?;
         let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
         let (x, y) = ranges(curves);
         let mut chart = ChartBuilder::on(root)
             .margin_left(4 * FINE)
             .margin_right(18 * FINE)
             .margin_bottom(4 * FINE)
-            .margin_top(legend + 6 * FINE)
+            .margin_top(legend.height() + 6 * FINE)
             .x_label_area_size(48 * FINE)
             .y_label_area_size(74 * FINE)
             .build_cartesian_2d(x, y)?;
@@ -185,41 +193,6 @@ impl Chart {
             .draw()?;
         curves.iter().try_for_each(|curve| curve.draw_on(&mut chart))
     }
-}
-
-/// A line, a marker and a name for each curve, in rows; gives the height used.
-fn draw_legend<DB: DrawingBackend>(
-    curves: &[Curve],
-    root: &DrawingArea<DB, plotters::coord::Shift>,
-) -> Result<i32, DrawingAreaErrorKind<DB::ErrorType>> {
-    let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
-    let (line, gap, row) = (28 * FINE, 7 * FINE, 24 * FINE);
-    let (left, right) = (78 * FINE, (WIDTH as i32 - 10) * FINE);
-    let (mut x, mut y) = (left, row * 2 / 3);
-    for curve in curves {
-        let length = |label: &str| root.estimate_text_size(label, &font).map(|size| size.0 as i32);
-        let mut label = curve.label.clone();
-        let mut kept = label.chars().count();
-        while length(&label)? > right - left - line - gap && kept > 2 {
-            kept -= 2;
-            label = shortened(&curve.label, kept);
-        }
-        let width = line + gap + length(&label)? + 2 * gap;
-        if x > left && x + width > right {
-            (x, y) = (left, y + row);
-        }
-        let ends = [(x, y), (x + line, y)];
-        match palette::DASHES[curve.style % palette::DASHES.len()] {
-            None => root.draw(&PathElement::new(ends, curve.stroke()))?,
-            Some((dash, pause)) => {
-                root.draw(&DashedPathElement::new(ends, dash * FINE, pause * FINE, curve.stroke()))?;
-            }
-        }
-        root.draw(&curve.marker((x + line / 2, y)))?;
-        root.draw(&Text::new(label, (x + line + gap, y - TEXT * FINE / 2), font.clone()))?;
-        x += width;
-    }
-    Ok(y + row / 2)
 }
 
 /// What the axes span: the data, zero, and a little more above and below.
@@ -247,14 +220,6 @@ fn ranges(curves: &[Curve]) -> (std::ops::Range<f64>, std::ops::Range<f64>) {
     let right = if right > left { right } else { left + 1.0 };
     let room = if high > low { 0.04 * (high - low) } else { 1.0 };
     (left..right, if low < 0.0 { low - room } else { 0.0 }..high + room)
-}
-
-/// The beginning and the end of a text, with so many letters in all: names of cases from a sweep differ at their end.
-fn shortened(text: &str, kept: usize) -> String {
-    let letters: Vec<char> = text.chars().collect();
-    let half = kept / 2;
-    let [start, end] = [&letters[..half], &letters[letters.len() - half..]].map(|part| part.iter().collect::<String>());
-    format!("{start}…{end}")
 }
 
 type Axes<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;

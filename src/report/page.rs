@@ -13,6 +13,9 @@ use minijinja::{AutoEscape, Environment, Value, context};
 /// Tables longer than this are linked instead of shown.
 const SHOWN_ROWS: usize = 60;
 
+/// More cases than this stand one below the other in the comparison.
+const MOST_ABREAST: usize = 8;
+
 /// What the page is made from.
 pub struct Page<'a> {
     pub study: &'a Study,
@@ -52,6 +55,7 @@ impl Page<'_> {
             text => &self.study.text,
             verdict => self.verdict(),
             names => list(self.cases, |case| case.name().into()),
+            many => self.cases.len() > MOST_ABREAST,
             groups => list(&summary::groups(self.cases), group),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             scaling => self.scaling.map(|found| self.scaling(found)),

@@ -137,7 +137,7 @@ fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Res
     let lead = match shade {
         Shade::Stress => format!(
             "Displacements to scale. Colour is the virial stress σyy across the crack plane, on the same scale in all \
-             pictures (beyond ±{end} GPa the end colours); white is empty space."
+             pictures (beyond ±{end} GPa the end colours); white is empty space, grey are the grips."
         ),
         Shade::Speed => format!(
             "The pictures taken nearest to the moments at which the cracks first branch. Colour is the speed of the \
@@ -155,7 +155,8 @@ impl Wanted<'_> {
     /// `None` where there is nothing to be seen.
     fn draw(&self, shade: Shade, limit: f64, folder: &Path) -> Result<Option<Picture>, ReportError> {
         let (mesh, frame) = (&self.film.mesh, &self.frame()?);
-        let spacing = self.case.result.setting.as_ref().map_or(0.0, |setting| setting.spacing);
+        let setting = self.case.result.setting.as_ref();
+        let [spacing, height] = setting.map_or([0.0, f64::INFINITY], |setting| [setting.spacing, setting.height]);
         let Some(view) = slab::view(&slab::positions(mesh, frame), MARGIN * spacing) else {
             return Ok(None);
         };
@@ -163,6 +164,7 @@ impl Wanted<'_> {
             mesh,
             frame,
             spacing,
+            height,
             view,
             shade,
             limit,

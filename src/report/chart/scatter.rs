@@ -3,11 +3,14 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::{FAINT, FINE, INK, TEXT};
+use super::{FAINT, FINE, INK, TEXT, labels};
 use crate::report::{numbers, palette};
 
 /// Decades are too coarse for the ends of the axes: they reach this factor beyond the points.
 const ROOM: f64 = 1.6;
+
+/// Radius of a point.
+const DOT: i32 = 4 * FINE;
 
 /// Points with names, the best of them joined, and costs that have no error of their own.
 #[derive(Default)]
@@ -91,13 +94,24 @@ impl Scatter {
             best.sort_by(|a, b| a.0.total_cmp(&b.0));
             chart.draw_series([PathElement::new(best, color(group).stroke_width(2 * FINE as u32))])?;
         }
+        let dots: Vec<(i32, i32)> = self
+            .points
+            .iter()
+            .map(|point| chart.backend_coord(&(point.x, point.y)))
+            .collect();
+        let mut sizes = Vec::new();
         for point in &self.points {
+            let (width, height) = root.estimate_text_size(&point.name, &small)?;
+            sizes.push((width as i32, height as i32));
+        }
+        let places = labels::places(&dots, &sizes, DOT);
+        for (point, place) in self.points.iter().zip(places) {
             let style = match point.is_best {
                 true => color(point.group).filled(),
                 false => color(point.group).stroke_width(FINE as u32),
             };
-            let dot = Circle::new((0, 0), 4 * FINE, style);
-            let name = Text::new(point.name.clone(), (6 * FINE, -6 * FINE), small.clone());
+            let dot = Circle::new((0, 0), DOT, style);
+            let name = Text::new(point.name.clone(), place, small.clone());
             chart.draw_series([EmptyElement::at((point.x, point.y)) + dot + name])?;
         }
         Ok(())

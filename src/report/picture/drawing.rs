@@ -26,6 +26,8 @@ pub struct Drawing<'a> {
     pub mesh: &'a FieldMesh,
     pub frame: &'a Frame,
     pub spacing: f64,
+    /// Height between the grips, nm.
+    pub height: f64,
     pub view: View,
     pub shade: Shade,
     /// What the end colours stand for, in the unit of the shade.
@@ -67,7 +69,9 @@ impl Drawing<'_> {
             .build_cartesian_2d(x[0]..x[1], y[0]..y[1])?;
         let (wide, high) = chart.plotting_area().dim_in_pixel();
         let size = [wide as usize, high as usize];
-        let colours = self.shade.colours(self.mesh, self.frame, self.limit);
+        let colours = self
+            .shade
+            .colours_between_grips(self.mesh, self.frame, self.limit, self.height);
         let pixels = slab::paint(self.mesh, self.frame, self.spacing, self.view, &colours, size);
         let picture = BitMapElement::with_owned_buffer((x[0], y[1]), (wide, high), pixels);
         chart.draw_series([picture.ok_or("the raster does not fit the picture")?])?;

@@ -7,6 +7,12 @@ use crate::report::{numbers, palette};
 /// The scale ends at this quantile, so that a few torn atoms do not darken all the rest.
 const QUANTILE: f64 = 0.995;
 
+/// Colour of the grips, one of the greys of the palette of a picture.
+const GRIPS: [u8; 3] = [151; 3];
+
+/// The innermost nodes of the grips are at their inner edges, but for rounding.
+const INNER_EDGE: f64 = 1.0 - 1e-6;
+
 /// A quantity of every cell.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shade {
@@ -42,6 +48,27 @@ impl Shade {
     pub fn colours(self, mesh: &FieldMesh, frame: &Frame, limit: f64) -> Vec<[u8; 3]> {
         let values = self.values(mesh, frame);
         values.into_iter().map(|value| self.colour(value / limit)).collect()
+    }
+
+    /// The same where grips hold a specimen of this height (nm) between them: they do not stretch, so that the stress in
+    /// them says nothing.
+    pub fn colours_between_grips(self, mesh: &FieldMesh, frame: &Frame, limit: f64, height: f64) -> Vec<[u8; 3]> {
+        let mut colours = self.colours(mesh, frame, limit);
+        if self == Self::Speed {
+            return colours;
+        }
+        let heights = || mesh.points.iter().map(|point| point[1]);
+        let middle = 0.5 * (heights().fold(f64::INFINITY, f64::min) + heights().fold(f64::NEG_INFINITY, f64::max));
+        let is_held = |node: &u32| (mesh.points[*node as usize][1] - middle).abs() > 0.5 * height * INNER_EDGE;
+        for (colour, ends) in colours.iter_mut().zip(mesh.offsets.windows(2)) {
+            if mesh.connectivity[ends[0] as usize..ends[1] as usize]
+                .iter()
+                .all(is_held)
+            {
+                *colour = GRIPS;
+            }
+        }
+        colours
     }
 
     fn values(self, mesh: &FieldMesh, frame: &Frame) -> Vec<f64> {
@@ -80,4 +107,36 @@ pub fn scale_end(top: f64) -> f64 {
     let steps = [1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0];
     let step = steps.into_iter().find(|step| step * power >= top).unwrap_or(10.0);
     numbers::round_significant(power * step, 2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn grips_are_grey_and_what_is_between_them_is_coloured_by_its_stress() {
+        // A triangle up to the inner edge of the lower grip, an atom between the grips, one at the edge of the upper one.
+        let mesh = FieldMesh {
+            points: vec![
+                [0.0, -9.0],
+                [2.0, -9.0],
+                [1.0, -7.0],
+                [1.0, 6.5],
+                [1.0, 7.0],
+                [1.0, 9.0],
+            ],
+            connectivity: (0..6).collect(),
+            offsets: vec![0, 3, 4, 5, 6],
+            element_size: vec![3, 1, 1, 1],
+        };
+        let frame = Frame {
+            stress: vec![[0.0; 3]; 4],
+            velocity: vec![[0.0; 2]; 6],
+            ..Frame::default()
+        };
+        let colours = Shade::Stress.colours_between_grips(&mesh, &frame, 1.0, 14.0);
+        assert_eq!(colours, [GRIPS, palette::stress(0.0), GRIPS, GRIPS]);
+        let moving = Shade::Speed.colours_between_grips(&mesh, &frame, 1.0, 14.0);
+        assert_eq!(moving, [palette::speed(0.0); 4]);
+    }
 }

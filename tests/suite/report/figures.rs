@@ -2,9 +2,9 @@
 
 use std::fs;
 
-use cgaft::report;
+use cgaft::report::{self, CaseResult, Study};
 
-use super::{files, three_meshes, written};
+use super::{files, text, three_meshes, written};
 
 #[test]
 fn every_figure_has_a_name_a_description_and_units() {
@@ -38,4 +38,35 @@ fn figures_of_cases_that_are_gone_go_too() {
     fs::remove_file(own).unwrap();
     let fresh = written(&study);
     assert!(files(folder.path()) == files(fresh.path()));
+}
+
+/// Thirty meshes of one specimen.
+fn many() -> Study {
+    let mut study = three_meshes();
+    let template = study.cases[2].clone();
+    let cases = vec![template; 30];
+    let named = cases.into_iter().enumerate().map(|(index, case)| CaseResult {
+        name: format!("a-case-with-a-long-name-{index}"),
+        film: None,
+        ..case
+    });
+    study.cases = named.collect();
+    study
+}
+
+#[test]
+fn many_cases_stand_one_below_the_other_and_their_legend_takes_nothing_from_the_curves() {
+    let folder = written(&many());
+    let page = text(&folder, "report.md");
+    assert!(page.contains("| case | nodes | atoms represented |"), "{page}");
+    assert!(page.contains("| a-case-with-a-long-name-29 | 60"), "{page}");
+    let few = written(&three_meshes());
+    let [few, many] = [few, folder].map(|folder| {
+        let svg = text(&folder, "figures/stress-strain.svg");
+        let height = svg.split("height=\"").nth(1).and_then(|rest| rest.split('"').next());
+        height.unwrap().parse::<u32>().unwrap()
+    });
+    assert_eq!(few, 400);
+    // Two of these names fit into a row of 24 units.
+    assert_eq!(many, 400 + 14 * 24);
 }
