@@ -23,7 +23,7 @@ fn what_another_study_lacks_is_told_with_the_command_and_stands_there_once_it_is
     let mut cgaft = Command::new(env!("CARGO_BIN_EXE_cgaft"));
     cgaft.args(["study", "run", "other.yaml", "--only", "coarse"]);
     cgaft.env("CGAFT_SOLVE", env!("CARGO_BIN_EXE_cgaft-solve"));
-    assert!(cgaft.current_dir(place.path("")).status().unwrap().success());
+    assert!(cgaft.current_dir(place.path("")).output().unwrap().status.success());
 
     // Nothing is to be computed, and yet there is more to show.
     place.cgaft("run", &["--only", "coarse"]).succeeded();
