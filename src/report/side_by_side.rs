@@ -32,7 +32,9 @@ struct Side<'a> {
 pub fn panels<'a>(study: &'a Study, cases: &'a [Analysed<'a>], others: &'a [Vec<Analysed<'a>>]) -> Vec<Panel<'a>> {
     let side = |study, case| Side { study, case };
     let named = |cases: &'a [Analysed<'a>], name: &str| cases.iter().find(|case| case.name() == name);
-    let across = cases.iter().map(|case| {
+    // A case without a result of its own is measured against nothing.
+    let computed = cases.iter().filter(|case| case.result.setting.is_some());
+    let across = computed.map(|case| {
         let elsewhere = study.others.iter().zip(others);
         let elsewhere = elsewhere.filter_map(|(other, cases)| Some(side(&other.name, named(cases, case.name())?)));
         Panel {

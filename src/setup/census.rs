@@ -19,7 +19,7 @@ pub struct Census {
 const MESHED: u64 = 30_000_000;
 
 /// What a process takes that computes hardly anything, and what an atom and a triangle add to it. Fitted to the peaks of
-/// models A to E of Deng (2011), 99 to 257 MB, and of a million atoms, 222 MB.
+/// models A to E of Deng (2011), 99 to 257 MB, and of 1.8 million atoms, 397 MB.
 const BYTES_A_PROCESS: u64 = 20_000_000;
 const BYTES_AN_ATOM: f64 = 200.0;
 const BYTES_A_TRIANGLE: f64 = 1250.0;

@@ -1,7 +1,7 @@
 //! Cases beside those of other studies, and beside each other.
 
 use cgaft::plan::SideBySide;
-use cgaft::report::{self, OtherStudy, Study};
+use cgaft::report::{self, CaseResult, OtherStudy, Study};
 
 use super::{finished, rows, text, three_meshes, written};
 
@@ -51,6 +51,12 @@ fn a_case_stands_beside_that_of_its_name_in_another_study() {
     assert!((apart - (coarse / atoms - 1.0)).abs() < 1e-8, "{apart}");
     assert_eq!(row("atoms", "core_seconds")["value"], "3.8");
     assert!(table.iter().all(|row| row["set"] != "coarse" && row["set"] != "mixed"));
+    let mut without = beside();
+    without.cases[2] = CaseResult {
+        name: "atoms".to_owned(),
+        ..CaseResult::default()
+    };
+    assert!(!text(&written(&without), "report.md").contains("### atoms"));
     for file in ["report.html", "report.md"] {
         let page = text(&folder, file);
         for part in [
