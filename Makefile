@@ -4,10 +4,12 @@ CARGO ?= cargo
 TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
 # What a solver of several ranks is built and started with.
 MPI_PACKAGES = libopenmpi-dev openmpi-bin $(shell .ci/libclang)
+# The studies of chapter 5 of Deng (2011).
+CHAPTER_5 = models-A-E models-A-E-mixed models-A-E-atoms case-1 case-2 branching-control convergence-D
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test verify bench speed-against-error models-A-E scaling check lint schema setup test-setup install
+.PHONY: help quickstart build test verify bench speed-against-error chapter-5 $(CHAPTER_5) scaling check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
@@ -17,6 +19,7 @@ help:
 	@echo 'make bench        what a step, a run and a command cost on this machine, beside LAMMPS; writes docs/performance.md'
 	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
 	@echo 'make models-A-E   models A to E of Deng (2011) at full size; writes reports/models-A-E'
+	@echo 'make chapter-5    the same, then mixed, in atoms (D alone), cases 1 and 2, branching-control and convergence-D, each also by its name'
 	@echo 'make scaling      what ranks gain here, and what more of them would; writes reports/scaling-fixed and reports/scaling-scaled'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
@@ -63,25 +66,19 @@ speed-against-error: build
 	rm reports/speed-against-error/figures/*.png reports/speed-against-error/tables/stress_*.csv reports/speed-against-error/tables/crack_speed.csv
 	grep -v figures/slab- $(TARGET)/results/speed-against-error/report.md > reports/speed-against-error/report.md
 
-# Long tables, the pictures of every end and the page itself (megabytes) stay with the results.
-models-A-E: build
-	$(TARGET)/release/cgaft study run studies/models-A-E.yaml --results $(TARGET)/results
-	mkdir -p reports/models-A-E
-	rm -rf reports/models-A-E/tables reports/models-A-E/figures
-	cp -r $(TARGET)/results/models-A-E/tables $(TARGET)/results/models-A-E/figures reports/models-A-E
-	rm -f reports/models-A-E/figures/motion.png reports/models-A-E/figures/slab-*.png reports/models-A-E/figures/energy-*.svg reports/models-A-E/tables/stress_strain.csv reports/models-A-E/tables/crack_speed.csv
-	sed '/figures\/slab-/d; /figures\/energy-/d; /figures\/motion/d; /in motion\.\*\*/d' $(TARGET)/results/models-A-E/report.md > reports/models-A-E/report.md
+# A study at a time; of models A to E in atoms only D, which takes minutes.
+chapter-5: $(CHAPTER_5)
+models-A-E-atoms: ONLY = --only D
+$(CHAPTER_5): build
+	$(TARGET)/release/cgaft study run studies/$@.yaml $(ONLY) --results $(TARGET)/results
+	reports/keep $(TARGET)/results/$@
 
 # These runs are there for their times, so nothing else should run meanwhile.
 scaling: build
-	for study in scaling-fixed scaling-scaled; do \
-		made=$(TARGET)/results/$$study && kept=reports/$$study && \
-		$(TARGET)/release/cgaft study run studies/$$study.yaml --fresh --results $(TARGET)/results && \
-		mkdir -p $$kept && rm -rf $$kept/tables $$kept/figures && \
-		cp -r $$made/tables $$made/figures $$kept && \
-		rm -f $$kept/figures/*.png $$kept/tables/stress_*.csv $$kept/tables/crack_speed.csv && \
-		grep -v figures/slab- $$made/report.md > $$kept/report.md || exit 1; \
-	done
+	$(TARGET)/release/cgaft study run studies/scaling-fixed.yaml --fresh --results $(TARGET)/results
+	$(TARGET)/release/cgaft study run studies/scaling-scaled.yaml --fresh --results $(TARGET)/results
+	reports/keep $(TARGET)/results/scaling-fixed
+	reports/keep $(TARGET)/results/scaling-scaled
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \

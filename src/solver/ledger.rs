@@ -139,7 +139,7 @@ mod tests {
     const BOND: f64 = 0.415;
 
     fn goes_on(peak_work: f64, peak_imbalance: f64) -> bool {
-        let mut ledger = Ledger::new(&Measure::default(), 0.0, 0.0);
+        let mut ledger = Ledger::new([0.0; 2], 0.0, 0.0);
         ledger.restore([POTENTIAL, PAIRS, KINETIC], peak_work, peak_imbalance);
         ledger.check(1, 1.0, 1e-9, || [0.0; 2]).is_ok()
     }
