@@ -186,9 +186,12 @@ impl Claim {
     }
 }
 
+/// Sizes (bytes) and checksums of files by name.
+type Settled = (BTreeMap<String, u64>, BTreeMap<String, String>);
+
 /// Flushes every file of a run to the disk, but for what a killed process has left half written; sizes and checksums by
 /// name. What has just been written is still in memory, so that a checksum costs no reading of the disk.
-fn settle_files(folder: &Path) -> Result<(BTreeMap<String, u64>, BTreeMap<String, String>), StoreError> {
+fn settle_files(folder: &Path) -> Result<Settled, StoreError> {
     let (mut sizes, mut checksums) = (BTreeMap::new(), BTreeMap::new());
     for entry in fs::read_dir(folder).map_err(StoreError::read(folder))? {
         let path = entry.map_err(StoreError::read(folder))?.path();
