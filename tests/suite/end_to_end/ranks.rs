@@ -59,8 +59,17 @@ fn computed(place: &Workspace) -> (PathBuf, PathBuf) {
     (run, case)
 }
 
+/// How often a specimen was cut anew.
+fn cuts(run: &Path) -> u64 {
+    let outcome = fs::read(run.join("outcome.json")).unwrap();
+    let outcome: serde_json::Value = serde_json::from_slice(&outcome).unwrap();
+    let mut phases = outcome["cost"].as_array().unwrap().iter();
+    let cut = phases.find(|phase| phase["name"] == "cut").unwrap();
+    cut["calls"].as_u64().unwrap()
+}
+
 #[test]
-fn any_number_of_ranks_and_threads_writes_the_same_bytes() {
+fn any_number_of_ranks_and_threads_writes_the_same_bytes_however_often_the_specimen_is_cut_anew() {
     let place = Workspace::new();
     let (run, case) = computed(&place);
     for (count, threads) in [(1, "2"), (2, "1"), (3, "2"), (7, "1")] {
@@ -68,6 +77,9 @@ fn any_number_of_ranks_and_threads_writes_the_same_bytes() {
         let job = &mut ranks(count, &case, &into, &["--threads", threads]);
         Program::start(job, &place).wait(PATIENCE).succeeded();
         assert_same_results(&into, &run);
+        // Among seven ranks of some elements each, those along the crack have much more to do.
+        assert!(cuts(&into) > 0 || count < 7, "{count} ranks");
+        assert!(cuts(&into) == 0 || count > 1, "{count} ranks");
     }
 }
 
@@ -148,32 +160,6 @@ fn a_rank_that_panics_ends_the_job_with_its_message_and_code() {
         .ended_with(101);
     assert!(said.stderr.contains("rank 1 panics"), "{}", said.stderr);
     assert!(start.elapsed() < SECONDS_TO_END);
-}
-
-#[test]
-fn the_specimen_is_cut_anew_where_a_rank_gets_less_of_the_machine_and_leaves_no_trace() {
-    let place = Workspace::new();
-    let (run, case) = computed(&place);
-    let script = place.path("one-gives-way.sh");
-    // Both share a core, and the second gives way to the first.
-    let lines = "#!/bin/sh\ncore=$(taskset -cp $$ | sed 's/.*: *//; s/[-,].*//')\n\
-                 [ $OMPI_COMM_WORLD_RANK = 1 ] && renice -n 5 $$ >/dev/null\nexec taskset -c $core \"$@\"\n";
-    fs::write(&script, lines).unwrap();
-    let into = place.path("cut anew");
-    let mut job = mpirun(2, Path::new("sh"));
-    job.arg(&script)
-        .arg(solver_with_mpi())
-        .arg(&case)
-        .arg("--into")
-        .arg(&into);
-    Program::start(job.args(["--threads", "1"]), &place)
-        .wait(PATIENCE)
-        .succeeded();
-    let outcome: serde_json::Value = serde_json::from_slice(&fs::read(into.join("outcome.json")).unwrap()).unwrap();
-    let phases = outcome["cost"].as_array().unwrap();
-    let cut = phases.iter().find(|phase| phase["name"] == "cut").unwrap();
-    assert!(cut["calls"].as_u64().unwrap() > 0, "{outcome:#}");
-    assert_same_results(&into, &run);
 }
 
 #[test]
