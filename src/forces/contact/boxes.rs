@@ -124,7 +124,8 @@ mod tests {
         for near in row(1000) {
             boxes.for_each_near(&near.widened(0.1), |_| looks += 1);
         }
-        assert!(looks <= 6 * 1000, "{looks} looks");
+        // Each covers three cells of 1.1 in a row at most, which touch six of the others; and there is the torn one.
+        assert!(looks <= 8 * 1000, "{looks} looks");
     }
 
     #[test]
@@ -151,11 +152,8 @@ mod tests {
                 let mut found = vec![0; bounds.len()];
                 boxes.for_each_near(&one.widened(distance), |other| found[other] += 1);
                 for (other, times) in bounds.iter().zip(found) {
-                    let near = one.widened(distance);
-                    let overlaps = (0..2).all(|axis| {
-                        near.low()[axis] <= other.high()[axis] && other.low()[axis] <= near.high()[axis]
-                    });
-                    prop_assert!(times == 1 || times == 0 && !overlaps);
+                    let overlaps = one.widened(distance).overlaps(other);
+                    prop_assert!(times == 1 || (times == 0 && !overlaps));
                 }
             }
         }

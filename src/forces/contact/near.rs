@@ -43,6 +43,12 @@ impl Bounds {
         self.0.map(|[_, high]| high)
     }
 
+    /// Whether some point is in both.
+    pub fn overlaps(&self, other: &Self) -> bool {
+        let mut sides = self.0.iter().zip(&other.0);
+        sides.all(|(own, other)| own[0] <= other[1] && other[0] <= own[1])
+    }
+
     /// Lengths of the sides; none of what holds nothing.
     pub fn extent(&self) -> [f64; 2] {
         self.0.map(|[low, high]| (high - low).max(0.0))

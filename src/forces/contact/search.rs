@@ -58,8 +58,10 @@ impl Field<'_> {
         let boxes = Boxes::new(&bounds, distance);
         let mut met = vec![Bounds::NOTHING; triangles.len()];
         for one in 0..triangles.len() {
-            boxes.for_each_near(&bounds[one].widened(distance), |other| {
+            let near = bounds[one].widened(distance);
+            boxes.for_each_near(&near, |other| {
                 if other > one
+                    && near.overlaps(&bounds[other])
                     && !are_apart(&corners[one], &corners[other], distance)
                     && !self.summed_elsewhere(triangles[one], triangles[other])
                 {
