@@ -80,27 +80,92 @@ impl JIntegral {
         })
     }
 
-    /// Finds the elements that may have a bond into the rings, or to an element that reaches into them: those that
-    /// [`Self::evaluate`] reads, ascending.
-    pub fn go_to(&mut self, mesh: &Mesh, rings: Rings) -> &[u32] {
+    /// Elements that [`Self::evaluate`] reads, ascending: those that the rings touch, and others at the far ends of their
+    /// bonds.
+    pub fn elements_read(&self, mesh: &Mesh, rings: &Rings) -> Vec<u32> {
+        let largest = f64::from(largest_size(mesh));
+        let reach = self.material.interaction.cutoff() / mesh.spacing + BondTable::BEYOND_CUTOFF;
+        elements_near(mesh, rings, 3.0 * largest + reach)
+    }
+
+    /// Finds the elements that may have a bond into the rings, or to an element that reaches into them.
+    fn go_to(&mut self, mesh: &Mesh, rings: Rings) {
         if self.rings == Some(rings) {
-            return &self.touched;
+            return;
         }
-        let largest = mesh.elements.first().map_or(0, |element| element.size);
-        let elements = (0..mesh.elements.len() as u32).into_par_iter();
-        let near = |&number: &u32| {
-            let element = &mesh.elements[number as usize];
-            let anchor = mesh.reference([element.column, element.row]);
-            rings.are_within(f64::from(element.size + largest) * mesh.spacing, anchor)
-        };
         self.touched
             .iter()
             .for_each(|&element| self.place[element as usize] = FAR);
-        self.touched = elements.filter(near).collect();
+        self.touched = elements_near(mesh, &rings, f64::from(largest_size(mesh)));
         for (place, &element) in (0..).zip(&self.touched) {
             self.place[element as usize] = place;
         }
         self.rings = Some(rings);
-        &self.touched
+    }
+}
+
+fn largest_size(mesh: &Mesh) -> i32 {
+    mesh.elements.first().map_or(0, |element| element.size)
+}
+
+/// Elements no farther outside the rings than their own size and a distance in spacings, ascending.
+fn elements_near(mesh: &Mesh, rings: &Rings, distance: f64) -> Vec<u32> {
+    let elements = (0..mesh.elements.len() as u32).into_par_iter();
+    let near = |&number: &u32| {
+        let element = &mesh.elements[number as usize];
+        let anchor = mesh.reference([element.column, element.row]);
+        rings.are_within((f64::from(element.size) + distance) * mesh.spacing, anchor)
+    };
+    elements.filter(near).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::Plan;
+    use crate::mesh::sites::Layout;
+    use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
+
+    #[test]
+    fn every_bond_of_what_the_rings_touch_ends_in_an_element_that_is_known_to_be_read() {
+        for (element, cutoff) in [(10, 1.5), (1, 1.5), (10, 2.5), (1, 2.5)] {
+            let lennard_jones = LennardJones {
+                epsilon: 1.0,
+                sigma: 1.0,
+            };
+            let law = CutPotential::new(lennard_jones, cutoff, AtCutoff::Truncated);
+            let material = Material::new(Interaction::LennardJones(law), 1.0).unwrap();
+            let layout = Layout {
+                block: 10,
+                rows: 24,
+                triangles: 49,
+            };
+            let mesh = Mesh::new(&Plan {
+                layout,
+                element,
+                regions: vec![],
+                crack_length: None,
+                grip_rows: 10,
+                spacing: material.spacing,
+            });
+            let middle = mesh.reference([120, 120]);
+            let rings = Rings::within(30.0 * material.spacing, middle);
+            let mut integral = JIntegral::new(&mesh, material);
+            integral.go_to(&mesh, rings);
+            let read = integral.elements_read(&mesh, &rings);
+            assert!(read.len() < mesh.elements.len() && integral.touched.len() > 10);
+            let ends = integral.touched.iter().flat_map(|&number| {
+                let element = &mesh.elements[number as usize];
+                let table = integral.tables.iter().find(|table| table.size == element.size);
+                let bonds = table.unwrap().leaving(element);
+                bonds.filter_map(|(_, _, end)| mesh.owner_of(end)).collect::<Vec<_>>()
+            });
+            for end in ends {
+                assert!(
+                    read.binary_search(&(end as u32)).is_ok(),
+                    "n = {element}: element {end}"
+                );
+            }
+        }
     }
 }

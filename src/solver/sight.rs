@@ -35,8 +35,8 @@ impl Solver {
         }
         let mut seen = Vec::new();
         if domain.ranks().is_first() {
-            let around_tip = rings.map_or(&[][..], |rings| self.j_integral.go_to(self.forces.mesh(), rings));
-            seen = [&self.sight.0, around_tip].concat();
+            let around_tip = rings.map(|rings| self.j_integral.elements_read(self.forces.mesh(), &rings));
+            seen = [&self.sight.0, &around_tip.unwrap_or_default()[..]].concat();
             seen.retain(|&element| !domain.is_mine(element as usize));
             seen.sort_unstable();
             seen.dedup();

@@ -18,7 +18,7 @@ use crate::state::State;
 
 /// The bonds of elements of one size, in local coordinates.
 pub(super) struct BondTable {
-    size: i32,
+    pub(super) size: i32,
     /// One of each pair of opposite vectors, and how many bonds inside the element it stands for.
     inside: Vec<(Arm, f64)>,
     /// Sites of the element and the vectors that leave it from there.
@@ -27,7 +27,7 @@ pub(super) struct BondTable {
 
 /// A lattice vector.
 #[derive(Clone, Copy)]
-struct Arm {
+pub(super) struct Arm {
     local: [i32; 2],
     /// nm, in an upright element.
     vector: [f64; 2],
@@ -40,7 +40,7 @@ struct Arm {
 
 impl BondTable {
     /// Bonds this much longer than the cutoff (in spacings) may come within it while the lattice is strained.
-    const BEYOND_CUTOFF: f64 = 0.3;
+    pub(super) const BEYOND_CUTOFF: f64 = 0.3;
 
     pub(super) fn new(size: i32, material: &Material) -> Self {
         let spacing = material.spacing;
@@ -77,6 +77,15 @@ impl BondTable {
             inside: inside.filter(|(_, count)| *count > 0.0).collect(),
             leaving: leaving.map(|(local, vector)| (local, arm(vector))).collect(),
         }
+    }
+
+    /// Bonds that leave an element: from which of its sites, along what, and where they end.
+    #[inline(always)]
+    pub(super) fn leaving(&self, element: &Element) -> impl Iterator<Item = ([i32; 2], &Arm, [i32; 2])> {
+        self.leaving.iter().map(|(local, arm)| {
+            let end = [local[0] + arm.local[0], local[1] + arm.local[1]];
+            (*local, arm, element.site(end))
+        })
     }
 }
 
@@ -162,9 +171,8 @@ impl Field<'_> {
             cell.add(self.material, arm, sign, *count, &ends);
         }
         let mut last = None;
-        for (local, arm) in &table.leaving {
-            let site = element.site(*local);
-            let other_site = element.site([local[0] + arm.local[0], local[1] + arm.local[1]]);
+        for (local, arm, other_site) in table.leaving(element) {
+            let site = element.site(local);
             last = self.mesh.owner_beside(other_site, last);
             let Some(other) = last else {
                 continue;
@@ -181,7 +189,7 @@ impl Field<'_> {
                     interpolate(&nodes, far.size, far.local(other_site))
                 }
             };
-            let ends = [interpolate(nodes, size, *local), far_end];
+            let ends = [interpolate(nodes, size, local), far_end];
             cell.add(self.material, arm, sign, 0.5, &ends);
         }
         cell
