@@ -172,7 +172,7 @@ mod tests {
 
     #[test]
     fn parcels_carry_numbers_of_nodes_and_elements_to_the_same_places() {
-        let places = [vec![3..9, 30..31], vec![1..3]];
+        let places = [vec![3..9, 30..31], std::iter::once(1..3).collect()];
         let mut parcel = Parcel {
             peer: 1,
             nodes: places[0].clone(),

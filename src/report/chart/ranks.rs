@@ -166,7 +166,7 @@ impl Line {
             Style::Ideal => root.draw(&PathElement::new(ends, color.stroke_width(FINE as u32))),
             Style::Prediction => {
                 let stroke = color.stroke_width(2 * FINE as u32);
-                root.draw(&DashedPathElement::new(ends.into_iter(), 8 * FINE, 5 * FINE, stroke))
+                root.draw(&DashedPathElement::new(ends, 8 * FINE, 5 * FINE, stroke))
             }
             Style::Measured => root.draw(&Circle::new(mark, size, color.filled())),
             Style::Compared => root.draw(&Circle::new(mark, size, color.stroke_width(2 * FINE as u32))),
