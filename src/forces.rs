@@ -27,7 +27,7 @@ pub use measure::Measure;
 pub use share::burdens;
 pub use summation::Summation;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use crate::domain::{Domain, Halo, Ranks};
 use crate::lattice::triangular;
@@ -93,6 +93,7 @@ pub struct Forces {
     farthest: f64,
     /// The instructions that the processor has.
     arch: Arch,
+    first_cut: Duration,
     searches: u64,
     search_time: Duration,
     exchanges: u64,
@@ -129,19 +130,22 @@ impl Forces {
         let bulk = BulkBonds::new(&mesh, listed, summation);
         let strings = SampledStrings::new(&interfaces, summation);
         let maps = Maps::new(&mesh);
-        let domain = Domain::new(ranks, &mesh, share::costs(&mesh, &interfaces));
-        let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.triangles());
         let limit = IntactLimit::new(&material, triangular::next_length(listed));
         let atoms = AtomLattice::new(&mesh, listed, limit.regular);
+        let start = Instant::now();
+        let domain = Domain::new(ranks, &mesh, share::costs(&mesh, &interfaces));
+        let bordering = share::bordering(&domain, &mesh, &interfaces, &atoms);
+        let halo = Halo::ask(&domain, &bordering);
+        let first_cut = start.elapsed();
+        let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.triangles());
         let reference = mesh.node_positions();
         let largest = reference
             .iter()
             .flatten()
             .fold(0.0, |most: f64, place| most.max(place.abs()));
-        let bordering = share::bordering(&domain, &mesh, &interfaces, &atoms);
         let mut forces = Self {
             mesh,
-            halo: Halo::ask(&domain, &bordering),
+            halo,
             domain,
             bordering,
             material,
@@ -159,6 +163,7 @@ impl Forces {
             watched: Vec::new(),
             farthest: Self::FARTHEST * largest,
             arch: Arch::new(),
+            first_cut,
             searches: 0,
             search_time: Duration::ZERO,
             exchanges: 0,
@@ -205,6 +210,11 @@ impl Forces {
 
     pub fn interface_count(&self) -> usize {
         self.states.len()
+    }
+
+    /// Seconds that the first cut of the specimen took: who computes what, and who tells whom.
+    pub fn first_cut(&self) -> f64 {
+        self.first_cut.as_secs_f64()
     }
 
     /// How often neighbours were searched, and for how many seconds.

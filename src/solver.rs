@@ -338,16 +338,13 @@ impl Solver {
         self.forces.domain().ranks()
     }
 
-    /// Where the time of this computation went: forces without the search for neighbours and the exchange with other
-    /// ranks, which are phases of their own.
+    /// Where the time of this computation went: set-up without the cut of the specimen, and forces without the search for
+    /// neighbours and the exchange with other ranks, which are phases of their own.
     pub fn cost(&self) -> Cost {
-        let (searches, seconds) = self.forces.search_cost();
         let mut cost = self.cost.clone();
-        cost.add(Phase::Neighbours, searches, seconds);
-        cost.add(Phase::Forces, 0, -seconds);
-        let (exchanges, seconds) = self.forces.exchange_cost();
-        cost.add(Phase::Exchange, exchanges, seconds);
-        cost.add(Phase::Forces, 0, -seconds);
+        cost.rebook(Phase::SetUp, Phase::Cut, (1, self.forces.first_cut()));
+        cost.rebook(Phase::Forces, Phase::Neighbours, self.forces.search_cost());
+        cost.rebook(Phase::Forces, Phase::Exchange, self.forces.exchange_cost());
         cost
     }
 

@@ -12,7 +12,7 @@ pub struct Times {
     pub steps: f64,
     /// INP: everything before the first step.
     pub input: f64,
-    /// GETM: cutting the specimen; `None` where it is part of the input.
+    /// GETM: cutting the specimen; `None` where it is not known apart from the input.
     pub map: Option<f64>,
     /// ELIST: search for neighbours.
     pub lists: f64,

@@ -121,17 +121,18 @@ pub fn findings(study: &Study, cases: &[Analysed]) -> Option<Findings> {
 /// The phases of a run as the steps of the source; `None` where it is not done.
 fn times(case: &Analysed) -> Option<Times> {
     let manifest = &case.result.manifest;
-    let seconds = |name: &str| {
+    let known = |name: &str| {
         let phase = manifest.cost.iter().find(|phase| phase.name == name);
-        phase.map_or(0.0, |phase| phase.seconds)
+        phase.map(|phase| phase.seconds)
     };
+    let seconds = |name: &str| known(name).unwrap_or(0.0);
     let steps = manifest.steps.filter(|&steps| steps > 0)? as f64;
     let exchange = seconds("exchange") / steps;
     Some(Times {
         ranks: manifest.ranks?,
         steps,
         input: seconds("mesh") + seconds("set-up"),
-        map: None,
+        map: known("cut"),
         lists: seconds("neighbours"),
         exchange,
         solve: exchange + (seconds("forces") + seconds("motion") + seconds("stability")) / steps,

@@ -86,7 +86,7 @@ fn compute(
     let start = Instant::now();
     let mut solver = shared_solver(case, ranks)?;
     let set_up = start.elapsed().as_secs_f64();
-    let mesh = set_up - solver.cost().seconds(Spent::SetUp);
+    let mesh = set_up - solver.cost().seconds(Spent::SetUp) - solver.cost().seconds(Spent::Cut);
     resume(&mut solver, into, ranks, &id, warn)?;
     let mut recorder = Recorder::new(into, id.clone(), &solver, tell);
     let ended = solver.run(&mut recorder, stop);

@@ -5,9 +5,9 @@ use std::time::Instant;
 /// What a run spends its time on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Phase {
-    /// Mesh, domains, neighbours and first forces; the source's INP and GETMAP.
+    /// Mesh, neighbours and first forces; the source's INP.
     SetUp,
-    /// Domains cut anew, because some rank had more to do than others; the source's GETMAP.
+    /// Who computes what, at first and whenever some rank has had more to do than others; the source's GETMAP.
     Cut,
     /// Neighbour search; the source's ELIST.
     Neighbours,
@@ -63,7 +63,13 @@ impl Cost {
         *start = now;
     }
 
-    pub fn add(&mut self, phase: Phase, calls: u64, seconds: f64) {
+    /// Takes calls, with their seconds, out of the time of one phase and books them as another.
+    pub fn rebook(&mut self, from: Phase, to: Phase, (calls, seconds): (u64, f64)) {
+        self.add(from, 0, -seconds);
+        self.add(to, calls, seconds);
+    }
+
+    fn add(&mut self, phase: Phase, calls: u64, seconds: f64) {
         let (sum_calls, sum_seconds) = &mut self.spent[phase as usize];
         *sum_calls += calls;
         *sum_seconds += seconds;

@@ -45,8 +45,8 @@ pub fn notes(study: &Study, cases: &[Analysed], findings: &Findings) -> Vec<(&'s
         .collect()
 }
 
-const STEPS: &str = "INP is everything before the first step (mesh, set-up), the cut of the specimen (the source's GETM) in it; \
-     ELIST the search for neighbours, of which surfaces alone have need; EXC what ranks send each other in a step, and how \
+const STEPS: &str = "INP is everything before the first step (mesh, set-up) but for GETM, the cut of the specimen between the \
+     ranks, at first and anew; ELIST the search for neighbours, of which surfaces alone have need; EXC what ranks send each other in a step, and how \
      long they wait for it; SOLV a step: forces, motion, the bound of the time step and EXC; OUT probes, pictures, checkpoints \
      and the published files. EXC and SOLV are times of a step, the others of the run, all of the first rank by the clock on \
      the wall. The total is INP + GETM + ELIST + N SOLV + OUT [Deng (2011), Eq. (4-1)], the speedup T(1)/T(P) with T(1) of a \
@@ -116,7 +116,7 @@ fn prediction(findings: &Findings) -> Option<String> {
         "No run, but SOLV = w SOLV(1) + EXC and EXC = m l + b/B + ⌈log₂ P⌉ r. The work w of the busiest rank, the m ranks that \
          it hears from and the bytes b that they send come from cutting this very mesh between P ranks; the latency l = {} µs, \
          the bandwidth B = {} GB/s and the reduction r = {} µs from messages between the ranks of a run here. ELIST shrinks \
-         with w; INP and OUT stay, because every rank makes the whole mesh and the first writes alone. Every rank is thought \
+         with w; INP, GETM and OUT stay, because every rank makes and cuts the whole mesh and the first writes alone. Every rank is thought \
          to have a core with its memory for itself, nothing to hide messages behind, and no network slower than what was \
          measured.",
         micro(messages.latency),
