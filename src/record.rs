@@ -18,6 +18,7 @@ mod fields;
 mod file;
 pub mod frames;
 mod mesh;
+mod packed;
 mod pieces;
 mod provenance;
 mod publish;

@@ -4,12 +4,7 @@ use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Group, H5Type};
 use ndarray::{ArrayView, IxDyn};
 
-/// Numbers a chunk of a compressed dataset: 64 to 128 kB, so that a short file is one chunk and a
-/// chunk always fits the 1 MB cache that HDF5 keeps a dataset.
-pub(super) const CHUNK_NUMBERS: usize = 16 * 1024;
-
-/// Deflate level: the fourth makes noisy fields 3 % smaller than the first and takes 1.7 times as long.
-pub(super) const DEFLATE: u8 = 1;
+use super::packed::{Number, Packed};
 
 /// How the numbers lie in the file.
 #[derive(Clone, Copy)]
@@ -26,7 +21,7 @@ pub(super) fn new_group(parent: &Group, name: &str) -> hdf5::Result<Group> {
 }
 
 /// Writes an array; `shape` has the product `data.len()`.
-pub(super) fn put<T: H5Type>(
+pub(super) fn put<T: Number>(
     group: &Group,
     name: &str,
     unit: &str,
@@ -34,19 +29,26 @@ pub(super) fn put<T: H5Type>(
     data: &[T],
     packing: Packing,
 ) -> hdf5::Result<()> {
-    let view = ArrayView::from_shape(IxDyn(shape), data)?;
-    let mut builder = group.new_dataset_builder().obj_track_times(false);
+    assert_eq!(
+        shape.iter().product::<usize>(),
+        data.len(),
+        "`{name}` has another shape"
+    );
     // HDF5 has no chunks of length 0.
     if matches!(packing, Packing::Deflated) && !data.is_empty() {
-        builder = builder.chunk(chunk(shape)).shuffle().deflate(DEFLATE);
+        let mut packed = Packed::create(group, name, unit, shape)?;
+        packed.append(data)?;
+        return packed.finish();
     }
+    let view = ArrayView::from_shape(IxDyn(shape), data)?;
+    let builder = group.new_dataset_builder().obj_track_times(false);
     let dataset = builder.with_data(view).create(name)?;
     name_unit(&dataset, unit)?;
     dataset.flush()
 }
 
 /// Writes one number.
-pub(super) fn put_scalar<T: H5Type>(group: &Group, name: &str, unit: &str, value: T) -> hdf5::Result<()> {
+pub(super) fn put_scalar<T: Number>(group: &Group, name: &str, unit: &str, value: T) -> hdf5::Result<()> {
     put(group, name, unit, &[], &[value], Packing::Plain)
 }
 
@@ -89,12 +91,4 @@ pub(super) fn get_scalar<T: H5Type>(group: &Group, name: &str) -> hdf5::Result<T
 pub(super) fn name_unit(dataset: &Dataset, unit: &str) -> hdf5::Result<()> {
     let unit: VarLenUnicode = unit.parse().map_err(|_| "a unit contains a zero byte")?;
     dataset.new_attr::<VarLenUnicode>().create("units")?.write_scalar(&unit)
-}
-
-/// Whole rows of about [`CHUNK_NUMBERS`] numbers together, no more than there are.
-pub(super) fn chunk(shape: &[usize]) -> Vec<usize> {
-    let row: usize = shape[1..].iter().product();
-    let mut chunk = shape.to_vec();
-    chunk[0] = (CHUNK_NUMBERS / row).clamp(1, shape[0]);
-    chunk
 }

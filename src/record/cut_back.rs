@@ -70,6 +70,7 @@ fn shorten(dir: &Path, piece: &SegmentPiece, step: u64) -> Result<(), RecordErro
         part.probes.truncate(kept);
         part.profiles.truncate(kept * part.profile_x.len());
         part.tractions.truncate(kept * part.profile_x.len());
+        part.gauges.truncate(kept * part.gauge_places.len());
         part.bonds
             .retain(|bond| u64::from(bond.probe) < first_probe + kept as u64);
         write_segment(dir, first_probe, &part)?;

@@ -1,9 +1,9 @@
 //! The fields that ParaView shows, and their units.
 
-use hdf5::{Dataset, Group};
+use hdf5::Group;
 
-use super::arrays::{DEFLATE, chunk, name_unit};
 use super::frames::Frame;
+use super::packed::Packed;
 use crate::units::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
 
 /// A field as ParaView shows it.
@@ -53,19 +53,9 @@ pub(super) const CELL_FIELDS: [Field; 3] = [
 
 impl Field {
     /// An empty dataset that holds the field for all steps, one after the other.
-    pub(super) fn create(&self, group: &Group, rows: usize) -> hdf5::Result<Dataset> {
-        let shape = if self.width == 1 {
-            vec![rows]
-        } else {
-            vec![rows, self.width]
-        };
-        let mut builder = group.new_dataset::<f32>().obj_track_times(false);
-        if rows > 0 {
-            builder = builder.chunk(chunk(&shape)).shuffle().deflate(DEFLATE);
-        }
-        let dataset = builder.shape(shape).create(self.name)?;
-        name_unit(&dataset, self.unit)?;
-        Ok(dataset)
+    pub(super) fn create(&self, group: &Group, rows: usize) -> hdf5::Result<Packed<f32>> {
+        let shape: &[usize] = if self.width == 1 { &[rows] } else { &[rows, self.width] };
+        Packed::create(group, self.name, self.unit, shape)
     }
 }
 

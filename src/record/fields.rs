@@ -5,13 +5,13 @@
 
 use std::path::Path;
 
-use hdf5::{Dataset, Group};
-use ndarray::{ArrayView1, ArrayView2, s};
+use hdf5::Group;
 
 use super::arrays::new_group;
 use super::field::{CELL_FIELDS, Field, POINT_FIELDS};
 use super::frames::{FieldMesh, Frame};
 use super::mesh::{check_mesh, put_mesh};
+use super::packed::Packed;
 use super::pieces::FramePiece;
 use super::provenance::put_provenance;
 use super::snapshots::read_frame;
@@ -28,16 +28,16 @@ pub(super) fn assemble(path: &Path, case_id: &str, mesh: &FieldMesh, frames: &[F
     let grid = new_group(&file, "VTKHDF").map_err(cannot_write)?;
     put_mesh(&grid, mesh).map_err(cannot_write)?;
 
-    let fields = Fields::create(&grid, mesh, frames.len()).map_err(cannot_write)?;
+    let mut fields = Fields::create(&grid, mesh, frames.len()).map_err(cannot_write)?;
     let mut steps = Steps::default();
-    for (index, piece) in frames.iter().enumerate() {
+    for piece in frames {
         let frame = read_frame(&piece.path)?;
         let [nodes, velocities] = [frame.displacement.len(), frame.velocity.len()];
         if [nodes, velocities, frame.stress.len()] != [mesh.points.len(), mesh.points.len(), cells] {
             let what = "the frame has other nodes or cells than the mesh";
             return Err(RecordError::gap(&piece.path, what));
         }
-        fields.write(index, &frame).map_err(cannot_write)?;
+        fields.append(&frame).map_err(cannot_write)?;
         steps.push(&frame);
     }
     fields.finish().map_err(cannot_write)?;
@@ -46,7 +46,7 @@ pub(super) fn assemble(path: &Path, case_id: &str, mesh: &FieldMesh, frames: &[F
 }
 
 /// The datasets that hold a field for all steps, one after the other.
-struct Fields(Vec<(&'static Field, Dataset)>);
+struct Fields(Vec<(&'static Field, Packed<f32>)>);
 
 impl Fields {
     fn create(grid: &Group, mesh: &FieldMesh, frames: usize) -> hdf5::Result<Fields> {
@@ -65,22 +65,12 @@ impl Fields {
         Ok(Fields(datasets))
     }
 
-    fn write(&self, index: usize, frame: &Frame) -> hdf5::Result<()> {
-        for (field, dataset) in &self.0 {
-            let numbers = (field.of)(frame);
-            let rows = numbers.len() / field.width;
-            let place = index * rows..(index + 1) * rows;
-            if field.width == 1 {
-                dataset.write_slice(ArrayView1::from(&numbers), place)?;
-            } else {
-                dataset.write_slice(ArrayView2::from_shape((rows, field.width), &numbers)?, s![place, ..])?;
-            }
-        }
-        Ok(())
+    fn append(&mut self, frame: &Frame) -> hdf5::Result<()> {
+        let mut fields = self.0.iter_mut();
+        fields.try_for_each(|(field, packed)| packed.append(&(field.of)(frame)))
     }
 
-    /// What HDF5 still holds in memory is written, or the failure told.
     fn finish(self) -> hdf5::Result<()> {
-        self.0.iter().try_for_each(|(_, dataset)| dataset.flush())
+        self.0.into_iter().try_for_each(|(_, packed)| packed.finish())
     }
 }

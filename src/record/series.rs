@@ -9,6 +9,7 @@ use hdf5::Group;
 
 use super::RecordError;
 use super::arrays::{Packing, get, get_column, get_rows, new_group, put};
+use super::packed::Number;
 use super::provenance::put_provenance;
 use super::sealed::{self, Seal};
 use super::setting::{get_setting, put_setting};
@@ -191,12 +192,7 @@ fn get_probes(group: &Group) -> hdf5::Result<Vec<Probe>> {
 }
 
 fn put_bonds(group: &Group, bonds: &[BondEvent]) -> hdf5::Result<()> {
-    fn column<T: hdf5::H5Type>(
-        group: &Group,
-        name: &str,
-        bonds: &[BondEvent],
-        of: fn(&BondEvent) -> T,
-    ) -> hdf5::Result<()> {
+    fn column<T: Number>(group: &Group, name: &str, bonds: &[BondEvent], of: fn(&BondEvent) -> T) -> hdf5::Result<()> {
         let column: Vec<T> = bonds.iter().map(of).collect();
         put(group, name, "1", &[bonds.len()], &column, Packing::Deflated)
     }

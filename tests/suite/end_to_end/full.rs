@@ -68,7 +68,7 @@ fn a_report_that_cannot_be_written_tells_which_file_and_what_to_do_and_is_built_
     place.cgaft("run", &["--only", "mixed"]).succeeded();
     let page = fs::read(place.results().join("report.md")).unwrap();
     // Smaller than a table, than a picture, and than the page itself.
-    for (kibibytes, file) in [(1, "tables/"), (50, "figures/slab-"), (100, "report.html")] {
+    for (kibibytes, file) in [(1, "tables/"), (40, "figures/slab-"), (100, "report.html")] {
         let full = with_files_up_to(&place, kibibytes, "report", &[]).ended_with(5);
         let told = format!("the report: cannot write results/slab/{file}");
         for words in [told.as_str(), "File too large", "make room", "`cgaft study report`"] {
