@@ -18,7 +18,7 @@ pub mod stop;
 pub use errand::{Ending, Errand, Job, Watcher};
 pub use launch::Launch;
 pub use progress::Progress;
-pub use queue::{Settings, run};
+pub use queue::{Settings, WORTH_A_RESTART, run};
 pub use stop::Stop;
 
 use std::io;

@@ -78,7 +78,8 @@ impl Analysed<'_> {
     /// Cores taken times wall time, s.
     fn core_seconds(&self) -> Option<f64> {
         let manifest = &self.result.manifest;
-        Some(f64::from(manifest.ranks? * manifest.threads?) * manifest.wall_seconds?)
+        let as_at_the_end = || Some(f64::from(manifest.ranks? * manifest.threads?) * manifest.wall_seconds?);
+        manifest.core_seconds.or_else(as_at_the_end)
     }
 
     /// What a simulated picosecond costs, in seconds of one core.

@@ -38,6 +38,11 @@ fn progress_words(progress: &Progress, pace: &Pace) -> String {
 const STOPPING: &str = "stopping: the cases write their checkpoints (Ctrl-C again ends them at once)";
 const WAITING: &str = "another process computes it; waiting for it";
 
+/// `goes on with 2 cores`
+fn widened_words(cores: usize) -> String {
+    format!("goes on with {cores} cores, nobody else needs them")
+}
+
 /// `step 1200 of 20000`
 fn reached_words(reached: &Reached) -> String {
     format!("step {} of {}", reached.step, reached.of)

@@ -280,6 +280,7 @@ fn compute(
             let settings = Settings {
                 solver,
                 share: prepared.share,
+                worth_a_restart: executor::WORTH_A_RESTART,
                 slurm_job: None,
             };
             stop.with_care(|| executor::run(errand, &settings, stop))?

@@ -94,6 +94,8 @@ pub trait Watcher {
     /// It waits in the queue of a scheduler, which says why.
     fn queued(&mut self, job: &Job, why: &str);
     fn started(&mut self, job: &Job);
+    /// It goes on with more cores, so many together.
+    fn widened(&mut self, job: &Job, cores: usize);
     fn progress(&mut self, job: &Job, progress: &Progress);
     /// How far a case is that runs elsewhere.
     fn reached(&mut self, job: &Job, reached: &Reached);

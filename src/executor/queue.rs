@@ -1,4 +1,5 @@
-//! Sees a list of cases through: several at once, the longest first, none twice, none stopped by another's failure.
+//! Sees a list of cases through: several at once, the longest first, none twice, none stopped by another's failure. Towards
+//! the end cores that nobody waits for go to the case that has the longest way to go.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -18,6 +19,8 @@ use crate::store::{Claim, Program, Reached, State, StoreError};
 pub struct Settings {
     pub solver: PathBuf,
     pub share: Share,
+    /// What a case must have before it so that more threads are worth a start from its checkpoint.
+    pub worth_a_restart: Duration,
     /// The job of Slurm that all this happens in, such as `123_4`.
     pub slurm_job: Option<String>,
 }
@@ -36,6 +39,7 @@ pub fn run<'a>(errand: Errand<'a>, settings: &'a Settings, stop: &Stop) -> Resul
         }
         if !stop.requested() {
             queue.start_what_fits()?;
+            queue.lend_idle_cores();
         }
         queue.collect(stop.requested())?;
         if queue.running.is_empty() && (stop.requested() || queue.waiting.is_empty()) {
@@ -51,6 +55,8 @@ pub fn run<'a>(errand: Errand<'a>, settings: &'a Settings, stop: &Stop) -> Resul
 const POLL: Duration = Duration::from_millis(50);
 /// Time between two notes in the store of how far a case is.
 const NOTE_EVERY: Duration = Duration::from_secs(2);
+/// What a case must have before it to be started again with more threads: a checkpoint and a set-up take some seconds.
+pub const WORTH_A_RESTART: Duration = Duration::from_secs(20);
 /// Lines of its log that a failed case shows.
 const LOG_TAIL: usize = 20;
 
@@ -69,6 +75,10 @@ struct Work {
     process: Running,
     claim: Claim,
     crew: Crew,
+    /// Who is to go on with it from the checkpoint that it has been asked for.
+    successor: Option<Crew>,
+    /// When this attempt was first heard of, and how far it was then, percent.
+    first_heard: Option<(Instant, f64)>,
     reached: Option<Reached>,
     /// When the store was last told of it.
     noted: Instant,
@@ -126,30 +136,55 @@ impl<'a> Queue<'a> {
                 claim.begin(&job.case_text, over)?;
             }
         }
+        self.start(number, claim, self.crew(number))?;
+        self.errand.watcher.started(&self.errand.jobs[number]);
+        Ok(())
+    }
+
+    fn start(&mut self, number: usize, mut claim: Claim, crew: Crew) -> Result<(), ExecutorError> {
+        claim.takes(crew.cores());
         let folder = claim.folder();
-        let crew = self.crew(number);
         let mut command = launch::launch(&self.settings.solver, &folder, crew);
         if crew.ranks > 1 && self.settings.slurm_job.is_some() {
             command = mpi::shielded(command);
         }
         let log = open_log(&folder, &command)?;
         let process = local::start(number, &command, log, self.speak.clone())?;
-        self.errand.watcher.started(job);
         self.running.push(Work {
             job: number,
             process,
             claim,
             crew,
+            successor: None,
+            first_heard: None,
             reached: None,
             noted: Instant::now() - NOTE_EVERY,
         });
         Ok(())
     }
 
+    /// Asks the case that has the longest way to go for a checkpoint, from which it goes on with the cores that are idle.
+    fn lend_idle_cores(&mut self) {
+        if !self.waiting.is_empty() || self.running.iter().any(|work| work.successor.is_some()) {
+            return;
+        }
+        let at_work: Vec<Crew> = self.running.iter().map(|work| work.crew).collect();
+        let Some(longest) = self.running.iter_mut().max_by_key(|work| work.left()) else {
+            return;
+        };
+        let demand = self.errand.jobs[longest.job].demand();
+        let wider = self.settings.share.widened(longest.crew, &demand, &at_work);
+        if wider != longest.crew && longest.left() > self.settings.worth_a_restart {
+            longest.successor = Some(wider);
+            longest.process.interrupt();
+        }
+    }
+
     fn progress(&mut self, job: usize, progress: &Progress) -> Result<(), ExecutorError> {
         let Some(work) = self.running.iter_mut().find(|work| work.job == job) else {
             return Ok(());
         };
+        work.first_heard.get_or_insert((Instant::now(), progress.percent));
         work.reached = Some(Reached {
             step: progress.step,
             of: progress.of,
@@ -171,8 +206,13 @@ impl<'a> Queue<'a> {
                 while let Ok(Event::Progress(job, progress)) = self.listen.try_recv() {
                     self.progress(job, &progress)?;
                 }
-                let work = self.running.remove(position);
+                let mut work = self.running.remove(position);
                 let job = work.job;
+                let successor = work.successor.take().filter(|_| !stopping);
+                if let Some(crew) = successor.filter(|_| ended_of(&work, status).is_interruption()) {
+                    self.hand_over(work, crew)?;
+                    continue;
+                }
                 let ending = self.ending_of(work, status, stopping)?;
                 self.errand.end(job, ending);
             }
@@ -180,15 +220,25 @@ impl<'a> Queue<'a> {
         Ok(())
     }
 
+    /// Goes on with a case from its checkpoint.
+    fn hand_over(&mut self, work: Work, crew: Crew) -> Result<(), ExecutorError> {
+        let Work {
+            job,
+            mut claim,
+            reached,
+            ..
+        } = work;
+        claim.note(reached)?;
+        claim.begin(&self.errand.jobs[job].case_text, false)?;
+        self.start(job, claim, crew)?;
+        self.errand.watcher.widened(&self.errand.jobs[job], crew.cores());
+        Ok(())
+    }
+
     fn ending_of(&self, mut work: Work, status: ExitStatus, stopping: bool) -> Result<Ending, ExecutorError> {
         let job = &self.errand.jobs[work.job];
-        let tail = tail_of(&work.claim.folder().join("log.txt"));
         let several = work.crew.ranks > 1;
-        let ended = if several {
-            Ended::of_ranks(status, &tail)
-        } else {
-            Ended::of(status)
-        };
+        let ended = ended_of(&work, status);
         if ended.is_interruption() || (stopping && ended.code().is_none()) {
             return Ok(Ending::Interrupted(Some(work.claim.note(work.reached)?.clone())));
         }
@@ -210,6 +260,7 @@ impl<'a> Queue<'a> {
         } else {
             ended.meaning()
         };
+        let tail = log_tail(&work);
         Ok(Ending::Failed(Box::new(work.claim.fail(
             ended.code(),
             meaning,
@@ -221,6 +272,28 @@ impl<'a> Queue<'a> {
         self.errand.watcher.stopping();
         self.running.iter_mut().for_each(|work| work.process.interrupt());
     }
+}
+
+impl Work {
+    /// How long it will go on at the pace of this attempt; zero as long as that is not known.
+    fn left(&self) -> Duration {
+        let (Some((since, from)), Some(reached)) = (self.first_heard, self.reached) else {
+            return Duration::ZERO;
+        };
+        let pace = since.elapsed().as_secs_f64() / (reached.percent - from);
+        Duration::try_from_secs_f64((100.0 - reached.percent) * pace).unwrap_or_default()
+    }
+}
+
+fn ended_of(work: &Work, status: ExitStatus) -> Ended {
+    match work.crew.ranks {
+        1 => Ended::of(status),
+        _ => Ended::of_ranks(status, &log_tail(work)),
+    }
+}
+
+fn log_tail(work: &Work) -> Vec<String> {
+    tail_of(&work.claim.folder().join("log.txt"))
 }
 
 /// Whether the checkpoints of the attempt before are of no use: they may hold the blow-up, or another version wrote them.

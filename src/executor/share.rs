@@ -74,6 +74,17 @@ impl Share {
         demand.seconds / (cores as f64).powf(EFFICIENCY)
     }
 
+    /// A crew at work with the cores that all those at work leave idle, if its case leaves the threads open.
+    pub fn widened(&self, crew: Crew, demand: &Demand, at_work: &[Crew]) -> Crew {
+        let taken: usize = at_work.iter().map(|crew| crew.cores()).sum();
+        let cores = self.cores.filter(|_| demand.threads.is_none());
+        let idle = cores.map_or(0, |cores| cores.saturating_sub(taken));
+        Crew {
+            threads: crew.threads + idle as u32 / crew.ranks,
+            ..crew
+        }
+    }
+
     /// Whether a case may start beside those at work. What is larger than the machine runs alone.
     pub fn has_room(&self, at_work: &[Crew], next: Crew) -> bool {
         let taken: usize = at_work.iter().map(|crew| crew.cores()).sum();
@@ -172,6 +183,27 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn a_crew_is_widened_by_the_cores_that_are_idle_unless_the_user_has_said_how_many_it_has() {
+        let share = Share {
+            jobs: 3,
+            threads: 2,
+            cores: Some(8),
+        };
+        let [demand, given] = [None, Some(2)].map(|threads| demands(&[1.0], 1, threads)[0]);
+        let [one, two] = [1, 2].map(|ranks| Crew { ranks, threads: 2 });
+        let threads = |share: &Share, crew, demand: &Demand, beside: &[Crew]| {
+            share.widened(crew, demand, &[beside, &[crew]].concat()).threads
+        };
+        assert_eq!(threads(&share, one, &demand, &[]), 8);
+        assert_eq!(threads(&share, one, &demand, &[one, one]), 4);
+        assert_eq!(threads(&share, two, &demand, &[one]), 3);
+        assert_eq!(threads(&share, two, &demand, &[two]), 2);
+        assert_eq!(threads(&share, one, &given, &[]), 2);
+        let by_the_user = Share { cores: None, ..share };
+        assert_eq!(threads(&by_the_user, one, &demand, &[]), 2);
     }
 
     #[test]

@@ -85,6 +85,8 @@ pub struct Manifest {
     pub started: Option<String>,
     pub ended: Option<String>,
     pub wall_seconds: Option<f64>,
+    /// Wall time times the cores taken, if they were not the same all the time; s.
+    pub core_seconds: Option<f64>,
     /// Which condition ended the run.
     pub end_reason: Option<String>,
     /// Time step used and the stability limit, ps.

@@ -27,6 +27,9 @@ pub struct Claim {
     attempt: Attempt,
     /// Wall time of the attempts before this one, s.
     wall_seconds_before: f64,
+    core_seconds_before: f64,
+    /// Cores that this attempt takes.
+    cores: usize,
     clock: Instant,
     _lock: File,
 }
@@ -45,14 +48,16 @@ impl Store {
             attempts: 0,
             started: Timestamp::now(),
             wall_seconds: 0.0,
+            core_seconds: 0.0,
             reached: None,
         });
-        let wall_seconds_before = attempt.wall_seconds;
         Ok(Some(Claim {
             store: self.clone(),
             id: id.to_owned(),
+            wall_seconds_before: attempt.wall_seconds,
+            core_seconds_before: attempt.core_seconds,
             attempt,
-            wall_seconds_before,
+            cores: 1,
             clock: Instant::now(),
             _lock: lock,
         }))
@@ -81,6 +86,7 @@ impl Claim {
             files::remove(&folder)?;
             self.attempt.started = Timestamp::now();
             self.attempt.wall_seconds = 0.0;
+            self.attempt.core_seconds = 0.0;
             self.attempt.reached = None;
         }
         fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
@@ -90,14 +96,22 @@ impl Claim {
         self.attempt.program = Program::current();
         self.attempt.attempts += 1;
         self.wall_seconds_before = self.attempt.wall_seconds;
+        self.core_seconds_before = self.attempt.core_seconds;
         self.clock = Instant::now();
         self.write_attempt()
+    }
+
+    /// Says how many cores the attempt that has just begun takes; one if nobody says.
+    pub fn takes(&mut self, cores: usize) {
+        self.cores = cores;
     }
 
     /// Remembers how far the run is, for those who look on and for the time after an interruption.
     pub fn note(&mut self, reached: Option<Reached>) -> Result<&Attempt, StoreError> {
         self.attempt.reached = reached.or(self.attempt.reached);
-        self.attempt.wall_seconds = self.wall_seconds_before + self.clock.elapsed().as_secs_f64();
+        let elapsed = self.clock.elapsed().as_secs_f64();
+        self.attempt.wall_seconds = self.wall_seconds_before + elapsed;
+        self.attempt.core_seconds = self.core_seconds_before + elapsed * self.cores as f64;
         self.write_attempt()?;
         Ok(&self.attempt)
     }
@@ -137,6 +151,7 @@ impl Claim {
             ended: Timestamp::now(),
             attempts: self.attempt.attempts,
             wall_seconds: self.attempt.wall_seconds,
+            core_seconds: Some(self.attempt.core_seconds),
             exit_state: ExitState::Done,
             outcome,
             files,

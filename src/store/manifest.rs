@@ -17,7 +17,7 @@ pub struct Manifest {
     /// `None` where the machine does not tell its name.
     pub host: Option<String>,
     pub ranks: u32,
-    /// Threads a rank.
+    /// Threads a rank, at the end.
     pub threads: u32,
     /// The job of Slurm that published it, such as `123_4`; `None` outside Slurm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -29,6 +29,9 @@ pub struct Manifest {
     pub attempts: u32,
     /// Wall time of all attempts together, s.
     pub wall_seconds: f64,
+    /// The same times the cores that each attempt took; `None` in manifests from before it was told.
+    #[serde(default)]
+    pub core_seconds: Option<f64>,
     /// Always `done` here: other endings are never published.
     pub exit_state: ExitState,
     pub outcome: Outcome,
@@ -113,6 +116,9 @@ pub struct Attempt {
     pub started: Timestamp,
     /// Wall time of all attempts so far, s.
     pub wall_seconds: f64,
+    /// The same times the cores that each of them took.
+    #[serde(default)]
+    pub core_seconds: f64,
     /// `None` until the solver has told it.
     pub reached: Option<Reached>,
 }

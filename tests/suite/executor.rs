@@ -42,6 +42,7 @@ fn settings(jobs: usize) -> Settings {
             threads: 3,
             cores: None,
         },
+        worth_a_restart: Duration::ZERO,
         slurm_job: None,
     }
 }
@@ -72,6 +73,10 @@ impl Watcher for Notes {
 
     fn started(&mut self, job: &Job) {
         self.events.push(format!("{} started", job.name));
+    }
+
+    fn widened(&mut self, job: &Job, cores: usize) {
+        self.events.push(format!("{} goes on with {cores} cores", job.name));
     }
 
     fn progress(&mut self, job: &Job, progress: &Progress) {
@@ -180,6 +185,41 @@ fn no_more_cases_run_at_once_than_allowed() {
         most = most.max(running);
     }
     assert_eq!(most, 2, "{events:?}");
+}
+
+#[test]
+fn a_case_left_alone_goes_on_from_its_checkpoint_with_all_cores() {
+    let (_folder, store) = store();
+    let mut notes = Notes::default();
+    let cases = [job("A", "long"), job("B", "pause")];
+    let share = Share {
+        jobs: 2,
+        threads: 1,
+        cores: Some(2),
+    };
+    let settings = Settings { share, ..settings(2) };
+    let errand = Errand::new(&store, &cases, &mut notes);
+    let endings = executor::run(errand, &settings, &Stop::default()).unwrap();
+    assert_eq!(words(&endings), ["done", "done"]);
+    assert!(
+        notes.events.contains(&"A goes on with 2 cores".to_owned()),
+        "{:?}",
+        notes.events
+    );
+    let mut started = starts(&store);
+    started.sort();
+    let expected = [
+        "id-A.partial threads=1",
+        "id-A.partial threads=2",
+        "id-B.partial threads=1",
+    ];
+    assert_eq!(started, expected);
+    let Ending::Done(manifest) = &endings[0] else {
+        panic!("it is done")
+    };
+    assert_eq!((manifest.attempts, manifest.threads), (2, 2));
+    let cores = manifest.core_seconds.unwrap() / manifest.wall_seconds;
+    assert!(cores > 1.0 && cores < 2.0, "{cores}");
 }
 
 #[test]

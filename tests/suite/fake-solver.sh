@@ -1,7 +1,7 @@
 #!/bin/sh
 # Stands in for cgaft-solve: takes its arguments, speaks its progress, leaves its files, computes nothing.
 # A case whose file holds `fake: fail` (or the text in FAKE_FAIL) fails; `fake: slow` (FAKE_SLOW) waits to be stopped;
-# `fake: long` (FAKE_LONG) does so only until it has a checkpoint;
+# `fake: long` (FAKE_LONG) goes on slowly, and does so only until it has a checkpoint;
 # `fake: stubborn` (FAKE_STUBBORN) does not listen; `fake: pause` (FAKE_PAUSE) takes a moment; `fake: empty` leaves no result.
 # As one of several ranks it leaves all to the first.
 if [ "$1" = --version ]; then
@@ -38,6 +38,8 @@ if holds "${FAKE_SLOW:-fake: slow}"; then
     exit 130
 fi
 if holds "${FAKE_LONG:-fake: long}" && [ ! -e "$into/checkpoint.h5" ]; then
+    sleep 0.1
+    echo '{"step": 50, "of": 100, "time_ps": 0.6, "strain": 0.005, "tip_nm": 12.5, "percent": 50}'
     cat >/dev/null
     echo "checkpoint" >"$into/checkpoint.h5"
     exit 130

@@ -3,7 +3,7 @@ use std::time::Duration;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words};
+use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words, widened_words};
 use crate::cli::terminal::{Terminal, warn};
 use crate::executor::{Ending, Job, Progress, Watcher};
 use crate::store::{Reached, Store};
@@ -55,6 +55,12 @@ impl Watcher for Bars {
 
     fn started(&mut self, job: &Job) {
         self.bar(job).0.set_message("starting");
+    }
+
+    fn widened(&mut self, job: &Job, cores: usize) {
+        let (bar, pace) = self.bar(job);
+        *pace = None;
+        bar.set_message(widened_words(cores));
     }
 
     fn progress(&mut self, job: &Job, progress: &Progress) {

@@ -1,7 +1,7 @@
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words};
+use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words, widened_words};
 use crate::cli::terminal::{Terminal, warn};
 use crate::executor::{Ending, Job, Progress, Watcher};
 use crate::store::{Reached, Store};
@@ -50,6 +50,11 @@ impl Watcher for Lines {
 
     fn started(&mut self, job: &Job) {
         self.terminal.say(&format!("{}: started", job.name));
+    }
+
+    fn widened(&mut self, job: &Job, cores: usize) {
+        self.cases.remove(&job.id);
+        self.terminal.say(&format!("{}: {}", job.name, widened_words(cores)));
     }
 
     fn progress(&mut self, job: &Job, progress: &Progress) {

@@ -64,6 +64,7 @@ pub fn carry_out(
             threads: ticket.threads,
             cores: None,
         },
+        worth_a_restart: queue::WORTH_A_RESTART,
         slurm_job: own_id(),
     };
     let errand = Errand::new(store, std::slice::from_ref(&ticket.job), watcher);
