@@ -9,6 +9,9 @@ use crate::integrator;
 use crate::loading::Impulse;
 use crate::state::State;
 
+/// Steps between comparisons of what ranks have spent.
+const COMPARE_EVERY: u64 = 100;
+
 impl Solver {
     /// One step of central differences.
     pub fn advance(&mut self) -> Result<(), SolverError> {
@@ -45,11 +48,14 @@ impl Solver {
         self.due_kick = Some(0.5 * time_step);
         self.grip_impulse.add(&self.state, 0.5 * time_step);
         self.cost.book(Phase::Motion, &mut clock);
-        if self.step.is_multiple_of(time_step::CHECK_EVERY) {
+        let [present, limit] = [self.time_step, self.stability_limit];
+        if self.settings.time_step.is_to_be_checked(self.step, present, limit) {
             self.stability_limit = time_step::limit(&self.forces, &self.state);
             let adapted = self.settings.time_step.adapt(self.time_step, self.stability_limit);
             self.time_step = adapted.ok_or_else(|| self.step_unstable())?;
             self.cost.book(Phase::Stability, &mut clock);
+        }
+        if self.step.is_multiple_of(COMPARE_EVERY) {
             let is_unbalanced = self.forces.is_unbalanced();
             self.cost.book(Phase::Exchange, &mut clock);
             if is_unbalanced {

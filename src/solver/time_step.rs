@@ -12,8 +12,12 @@ pub enum TimeStep {
     Given(f64),
 }
 
-/// Steps between looks at the stability limit.
-pub const CHECK_EVERY: u64 = 100;
+/// Steps between looks at the stability limit, and between those of an automatic time step below [`FAR`] of it.
+const CHECK_EVERY: u64 = 100;
+const CHECK_FAR_EVERY: u64 = 400;
+
+/// From here to the limit itself the stiffness has to grow 2.8 times.
+const FAR: f64 = 0.6;
 
 /// How near to the limit an automatic time step may come before it is made shorter.
 const NEAREST: f64 = 0.75;
@@ -46,6 +50,15 @@ impl TimeStep {
         }
     }
 
+    /// Whether to look at the stability limit after this step; it was `limit` when it was last looked at.
+    pub fn is_to_be_checked(self, step: u64, present: f64, limit: f64) -> bool {
+        let every = match self {
+            Self::Auto { .. } if present < FAR * limit => CHECK_FAR_EVERY,
+            _ => CHECK_EVERY,
+        };
+        step.is_multiple_of(every)
+    }
+
     /// The time step from here on, never longer than before; `None` where a given one has become unstable.
     pub fn adapt(self, present: f64, limit: f64) -> Option<f64> {
         match self {
@@ -71,5 +84,18 @@ mod tests {
         assert_eq!(auto.adapt(6.0, 16.0), Some(6.0));
         assert_eq!(auto.adapt(6.0, 8.0), Some(6.0));
         assert_eq!(auto.adapt(6.0, 4.0), Some(3.0));
+    }
+
+    #[test]
+    fn a_limit_that_is_far_is_looked_at_less_often() {
+        let auto = TimeStep::Auto { fraction: 0.5 };
+        let looks = |time_step: TimeStep, limit: f64| {
+            let steps = 1..=800;
+            steps
+                .filter(|&step| time_step.is_to_be_checked(step, 5.0, limit))
+                .count()
+        };
+        assert_eq!([looks(auto, 10.0), looks(auto, 8.0)], [2, 8]);
+        assert_eq!(looks(TimeStep::Given(5.0), 10.0), 8);
     }
 }
