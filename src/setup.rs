@@ -193,6 +193,7 @@ fn settings(case: &Case, rate: f64) -> solver::Settings {
             time: case.run.until.time,
             crack_length: case.run.until.crack_length,
             arrest: case.run.until.arrest,
+            after_branch: case.run.until.after_branch,
         },
         probe_every: case.probes.every,
         snapshot_every: case.snapshots.every.map(|interval| match interval {

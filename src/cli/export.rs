@@ -129,12 +129,12 @@ fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
         head.push(String::new());
         head.push("The damping of the case is left out: it gets as hot as it gets.".to_owned());
     }
-    if until.crack_length.is_some() || until.arrest.is_some() {
+    if until.crack_length.or(until.arrest).or(until.after_branch).is_some() {
         head.push(String::new());
         head.push(
-            "The run ends at its strain or time: LAMMPS does not follow the crack, so it ends neither at a".to_owned(),
+            "The run ends at its strain or time: LAMMPS does not follow the crack, so it does not end at a".to_owned(),
         );
-        head.push("crack length nor at an arrest, as the case asks cgaft to.".to_owned());
+        head.push("crack length, at an arrest or after a branch, as the case asks cgaft to.".to_owned());
     }
     head
 }

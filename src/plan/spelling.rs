@@ -187,6 +187,7 @@ fn stop(until: &Until) -> Value {
         ("time", until.time.map(time)),
         ("crack-length", until.crack_length.map(length)),
         ("arrest", until.arrest.map(time)),
+        ("after-branch", until.after_branch.map(time)),
     ];
     conditions
         .into_iter()

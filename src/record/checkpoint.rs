@@ -23,7 +23,7 @@ pub fn read(path: &Path, case_id: &str) -> Result<Checkpoint, RecordError> {
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 3,
+        format: 4,
         case_id,
     }
 }
@@ -48,6 +48,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         snapshots,
         last_advance,
         farthest_tip,
+        branched,
     } = checkpoint;
     for (name, unit, numbers) in [
         ("position_x", "nm", position_x),
@@ -89,6 +90,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         ("peak_imbalance", "eV", peak_imbalance),
         ("last_advance", "ps", last_advance),
         ("farthest_tip", "nm", farthest_tip),
+        ("branched", "ps", branched),
     ] {
         put_scalar(group, name, unit, *number)?;
     }
@@ -118,5 +120,6 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
         snapshots: get_scalar(group, "snapshots")?,
         last_advance: get_scalar(group, "last_advance")?,
         farthest_tip: get_scalar(group, "farthest_tip")?,
+        branched: get_scalar(group, "branched")?,
     })
 }

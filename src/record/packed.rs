@@ -42,6 +42,7 @@ pub struct Packed<T> {
 impl<T: Number> Packed<T> {
     /// An empty dataset of this shape, without time stamps. HDF5 has no chunks of length 0: no entry of `shape` is 0.
     pub fn create(group: &Group, name: &str, unit: &str, shape: &[usize]) -> hdf5::Result<Self> {
+        assert!(!shape.contains(&0), "`{name}` is empty");
         let chunk = chunk(shape);
         let builder = group.new_dataset::<T>().obj_track_times(false);
         let filters = builder.chunk(chunk.clone()).shuffle().deflate(LEVEL as u8);

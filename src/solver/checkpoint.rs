@@ -38,6 +38,8 @@ pub struct Checkpoint {
     /// Time at which the crack last advanced, ps, and the farthest tip, nm; for the stop at arrest.
     pub last_advance: f64,
     pub farthest_tip: f64,
+    /// When the crack first had a branch, ps, if the run is to end after it; infinite otherwise.
+    pub branched: f64,
 }
 
 impl Checkpoint {

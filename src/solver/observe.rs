@@ -5,7 +5,8 @@ use std::time::Instant;
 use super::j_integral::Rings;
 use super::ledger::Balance;
 use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe};
-use crate::analysis::crack::Tracker;
+use crate::analysis::crack::{Tracker, branches};
+use crate::analysis::history;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
 
@@ -68,6 +69,10 @@ impl Solver {
         if let Some(tracker) = &mut self.tracker {
             bonds.iter().for_each(|event| tracker.apply(event));
             self.stop.follow(tracker.tip().x, self.time);
+            let is_wanted = self.settings.until.after_branch.is_some() && self.stop.branched().is_infinite();
+            if is_wanted && !bonds.is_empty() && branches::arms(tracker, history::spur(&self.setting)).len() > 1 {
+                self.stop.branch(self.time);
+            }
         }
         let totals = self.totals();
         let rings = self.rings();

@@ -37,6 +37,7 @@ impl Solver {
             snapshots: self.snapshots.taken(),
             last_advance: self.stop.last_advance(),
             farthest_tip: self.stop.farthest_tip(),
+            branched: self.stop.branched(),
         }
     }
 
@@ -67,7 +68,13 @@ impl Solver {
         }
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
-        self.stop.restore(checkpoint.last_advance, checkpoint.farthest_tip);
+        let Checkpoint {
+            last_advance,
+            farthest_tip,
+            branched,
+            ..
+        } = *checkpoint;
+        self.stop.restore(last_advance, farthest_tip, branched);
         Ok(())
     }
 

@@ -14,6 +14,8 @@ pub struct Until {
     pub crack_length: Option<f64>,
     /// The crack has set out and then stood still for this long, ps.
     pub arrest: Option<f64>,
+    /// The crack was first seen to have a branch so long ago, ps.
+    pub after_branch: Option<f64>,
 }
 
 /// Why a run ended.
@@ -23,6 +25,7 @@ pub enum Ending {
     Time(f64),
     CrackLength(f64),
     Arrest(f64),
+    AfterBranch(f64),
     /// Asked to stop; a checkpoint is there.
     Interrupted,
 }
@@ -34,6 +37,7 @@ impl std::fmt::Display for Ending {
             Self::Time(time) => write!(f, "time {time:.4} ps reached"),
             Self::CrackLength(tip) => write!(f, "crack length {tip:.3} nm reached"),
             Self::Arrest(time) => write!(f, "crack stood still for {time:.3} ps"),
+            Self::AfterBranch(time) => write!(f, "crack branched {time:.3} ps ago"),
             Self::Interrupted => write!(f, "interrupted"),
         }
     }
@@ -61,6 +65,8 @@ pub struct Watch {
     notch: f64,
     farthest: f64,
     last_advance: f64,
+    /// ps; infinite as long as the crack has no branch.
+    branched: f64,
 }
 
 impl Watch {
@@ -71,6 +77,7 @@ impl Watch {
             notch,
             farthest: notch,
             last_advance: 0.0,
+            branched: f64::INFINITY,
         }
     }
 
@@ -80,6 +87,16 @@ impl Watch {
             self.farthest = tip;
             self.last_advance = time;
         }
+    }
+
+    /// Takes note that the crack has a branch at a time, ps; the first time counts.
+    pub fn branch(&mut self, time: f64) {
+        self.branched = self.branched.min(time);
+    }
+
+    /// When the crack first had a branch, ps; infinite as long as it has none.
+    pub fn branched(&self) -> f64 {
+        self.branched
     }
 
     /// nm from the left edge
@@ -92,9 +109,10 @@ impl Watch {
         self.last_advance
     }
 
-    pub fn restore(&mut self, last_advance: f64, farthest: f64) {
+    pub fn restore(&mut self, last_advance: f64, farthest: f64, branched: f64) {
         self.last_advance = last_advance;
         self.farthest = farthest;
+        self.branched = branched;
     }
 
     /// The first reason to stop at this moment; times and strains count within half a step, and a run takes one at least.
@@ -112,10 +130,14 @@ impl Watch {
             return Some(Ending::CrackLength(self.farthest));
         }
         let still = time - self.last_advance;
+        if until.arrest.is_some_and(|end| set_out && still >= end) {
+            return Some(Ending::Arrest(still));
+        }
+        let since = time - self.branched;
         until
-            .arrest
-            .filter(|&end| set_out && still >= end)
-            .map(|_| Ending::Arrest(still))
+            .after_branch
+            .filter(|&end| since >= end)
+            .map(|_| Ending::AfterBranch(since))
     }
 }
 
@@ -200,6 +222,22 @@ mod tests {
             watch.ending(&until, 42.0, 0.2, at_a_thousandth),
             Some(Ending::CrackLength(30.5))
         );
+    }
+
+    #[test]
+    fn a_run_goes_on_for_a_time_after_the_first_branch() {
+        let until = Until {
+            strain: Some(0.5),
+            after_branch: Some(20.0),
+            ..Until::default()
+        };
+        let mut watch = watch();
+        assert_eq!(watch.ending(&until, 90.0, 0.2, at_a_thousandth), None);
+        watch.branch(91.0);
+        watch.branch(95.0);
+        assert_eq!(watch.ending(&until, 110.0, 0.2, at_a_thousandth), None);
+        let ending = watch.ending(&until, 111.0, 0.2, at_a_thousandth);
+        assert_eq!(ending, Some(Ending::AfterBranch(20.0)));
     }
 
     #[test]

@@ -177,6 +177,9 @@ pub struct Until {
     pub crack_length: Option<f64>,
     /// The crack has started and then stood still for this long, ps.
     pub arrest: Option<f64>,
+    /// The crack was first seen to have a branch so long ago, ps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub after_branch: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

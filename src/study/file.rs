@@ -217,6 +217,8 @@ pub struct Until {
     pub crack_length: Given<Length>,
     /// The crack has started and then stood still for this long.
     pub arrest: Given<Time>,
+    /// The crack has had a branch, as the report counts them, for this long.
+    pub after_branch: Given<Time>,
 }
 
 #[derive(Clone, Debug, Deserialize)]

@@ -34,6 +34,7 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         snapshots: 3,
         last_advance: number(3),
         farthest_tip: number(4),
+        branched: f64::INFINITY,
     }
 }
 

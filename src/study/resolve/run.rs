@@ -19,6 +19,7 @@ use crate::units::{self, Dimension};
 pub struct CrackStops {
     crack_length: Option<At<f64>>,
     arrest: Option<At<f64>>,
+    after_branch: Option<At<f64>>,
 }
 
 /// Nominal strain beyond which nothing holds together.
@@ -165,7 +166,9 @@ impl Check<'_> {
         let time = self.size_if_given(&values.time, "until.time");
         let crack_length = self.size_if_given(&values.crack_length, "until.crack-length");
         let arrest = self.size_if_given(&values.arrest, "until.arrest");
-        let (strain, time, crack_length, arrest) = (strain?, time?, crack_length?, arrest?);
+        let after_branch = self.size_if_given(&values.after_branch, "until.after-branch");
+        let (strain, time, crack_length, arrest, after_branch) =
+            (strain?, time?, crack_length?, arrest?, after_branch?);
         strain.or(time)?;
         if let Some((strain, place)) = strain
             && strain > MOST_STRAIN
@@ -182,14 +185,20 @@ impl Check<'_> {
             time: value(time),
             crack_length: value(crack_length),
             arrest: value(arrest),
+            after_branch: value(after_branch),
         };
-        Some((until, CrackStops { crack_length, arrest }))
+        let stops = CrackStops {
+            crack_length,
+            arrest,
+            after_branch,
+        };
+        Some((until, stops))
     }
 
     /// Stop conditions that speak of the crack must be able to come true, and not at once.
     pub fn stops(&self, stops: CrackStops, crack: Option<&At<Crack>>, specimen: &SpecimenAt) {
         let Some((crack, given)) = crack else {
-            for (_, place) in stops.crack_length.iter().chain(&stops.arrest) {
+            for (_, place) in [stops.crack_length, stops.arrest, stops.after_branch].iter().flatten() {
                 let message = "this waits for a crack, and the case has none";
                 self.add(Finding::at(*place, message).help("give a `crack`, or stop at a strain or a time"));
             }

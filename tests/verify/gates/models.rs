@@ -7,6 +7,7 @@ use cgaft::domain::Ranks;
 use cgaft::plan::plan;
 use cgaft::record::{SERIES_FILE, read_series};
 use cgaft::setup::run_case;
+use cgaft::solver::Ending;
 use cgaft::study;
 
 use crate::verify::table::{Chapter, Gate};
@@ -41,4 +42,28 @@ fn the_small_models_start_where_they_did() {
         gate.within(&claim, setting, start.strain, expected, START);
     }
     gate.close();
+}
+
+/// The tip of a branch that has just become long enough to count is as long a way from its fork: 2 element edges, at a
+/// third of the Rayleigh speed, take 8 ps.
+const RECOGNISED_WITHIN: f64 = 10.0;
+
+#[test]
+fn a_run_goes_on_for_the_asked_time_after_the_first_branch() {
+    const AFTER: f64 = 4.0;
+    let text = study::read("models-A-E-small.yaml").expect("it is shipped");
+    let plan = plan(&text).expect("it is right");
+    let named = plan.cases.iter().find(|planned| planned.name == "E");
+    let mut case = named.expect("model E is there").case.clone();
+    case.run.until.after_branch = Some(AFTER);
+    let folder = tempfile::tempdir().expect("there is room");
+    let (stop, mut quiet) = (AtomicBool::new(false), |_: &str| ());
+    let finished =
+        run_case(&case, folder.path(), Ranks::alone(), 1, &stop, &mut |_| (), &mut quiet).expect("it runs to its end");
+    assert!(matches!(finished.ending, Ending::AfterBranch(_)), "{}", finished.ending);
+    let (setting, series) = read_series(&folder.path().join(SERIES_FILE)).expect("it is published");
+    let findings = analysis::analyse(&series, &setting);
+    let branch = findings.first_branch().expect("it has branched").time;
+    let after = series.probes.last().expect("there are probes").time - branch;
+    assert!((AFTER..AFTER + RECOGNISED_WITHIN).contains(&after), "{after} ps");
 }
