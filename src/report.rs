@@ -29,6 +29,8 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
+use rayon::prelude::*;
+
 use crate::analysis::comparison::{self, Candidate, Difference};
 use crate::analysis::{self, Findings};
 use crate::record::RecordError;
@@ -138,7 +140,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
 
 fn analysed(cases: &[CaseResult]) -> Vec<Analysed<'_>> {
     let findings: Vec<Findings> = cases
-        .iter()
+        .par_iter()
         .map(|case| {
             case.setting
                 .as_ref()

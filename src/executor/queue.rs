@@ -169,14 +169,13 @@ impl<'a> Queue<'a> {
             return;
         }
         let at_work: Vec<Crew> = self.running.iter().map(|work| work.crew).collect();
-        let Some(longest) = self.running.iter_mut().max_by_key(|work| work.left()) else {
-            return;
-        };
-        let demand = self.errand.jobs[longest.job].demand();
-        let wider = self.settings.share.widened(longest.crew, &demand, &at_work);
-        if wider != longest.crew && longest.left() > self.settings.worth_a_restart {
-            longest.successor = Some(wider);
-            longest.process.interrupt();
+        let (share, jobs) = (&self.settings.share, self.errand.jobs);
+        let widened = |work: &Work| share.widened(work.crew, &jobs[work.job].demand(), &at_work);
+        let candidates = self.running.iter_mut().filter(|work| widened(work) != work.crew);
+        let longest = candidates.max_by_key(|work| work.left());
+        if let Some(work) = longest.filter(|work| work.left() > self.settings.worth_a_restart) {
+            work.successor = Some(widened(work));
+            work.process.interrupt();
         }
     }
 
@@ -203,8 +202,10 @@ impl<'a> Queue<'a> {
         for position in (0..self.running.len()).rev() {
             if let Some(status) = self.running[position].process.ended() {
                 // What it said last may still be on its way.
-                while let Ok(Event::Progress(job, progress)) = self.listen.try_recv() {
-                    self.progress(job, &progress)?;
+                while let Ok(event) = self.listen.try_recv() {
+                    if let Event::Progress(job, progress) = event {
+                        self.progress(job, &progress)?;
+                    }
                 }
                 let mut work = self.running.remove(position);
                 let job = work.job;

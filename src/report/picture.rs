@@ -7,6 +7,8 @@ mod shade;
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::film::Film;
 use super::slab;
 use super::units::PERCENT;
@@ -124,15 +126,20 @@ fn stage_frames<'a>(cases: &'a [Analysed<'a>], stages: &Stages) -> Vec<Wanted<'a
 
 /// Draws pictures on one scale.
 fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Result<Gallery, ReportError> {
-    let mut top: f64 = 0.0;
-    for picture in wanted {
-        top = top.max(shade.quantile(&picture.film.mesh, &picture.frame()?));
-    }
+    let quantile = |picture: &Wanted| Ok(shade.quantile(&picture.film.mesh, &picture.frame()?));
+    let tops: Vec<Result<f64, ReportError>> = wanted.par_iter().map(quantile).collect();
+    let top = tops
+        .into_iter()
+        .try_fold(0.0, |top, next| Ok::<_, ReportError>(f64::max(top, next?)))?;
     let limit = shade::scale_end(top);
-    let mut pictures = Vec::new();
-    for picture in wanted {
-        pictures.extend(picture.draw(shade, limit, folder)?);
-    }
+    let pictures: Vec<_> = wanted
+        .par_iter()
+        .map(|picture| picture.draw(shade, limit, folder))
+        .collect();
+    let pictures = pictures
+        .into_iter()
+        .filter_map(Result::transpose)
+        .collect::<Result<_, _>>()?;
     let end = numbers::tick(limit);
     let lead = match shade {
         Shade::Stress => format!(

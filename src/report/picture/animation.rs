@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::indexed::Palette;
 use super::shade::{Shade, scale_end};
 use super::{MARGIN, Picture};
@@ -76,11 +78,12 @@ impl Strip {
 
     /// The bytes of its file.
     fn encode(&self, film: &Film, spacing: f64) -> Result<Vec<u8>, ReportError> {
-        let mut pictures = (0..film.moments().len()).map(|index| {
+        let paint = |index: usize| {
             let frame = film.frame(index)?;
             let colours = Shade::Speed.colours(&film.mesh, &frame, self.limit);
             Ok(slab::paint(&film.mesh, &frame, spacing, self.view, &colours, self.size))
-        });
-        Palette::of(Shade::Speed).encode(FILE, self.size, PICTURES_A_SECOND, &mut pictures)
+        };
+        let pictures: Vec<_> = (0..film.moments().len()).into_par_iter().map(paint).collect();
+        Palette::of(Shade::Speed).encode(FILE, self.size, PICTURES_A_SECOND, &mut pictures.into_iter())
     }
 }
