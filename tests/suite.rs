@@ -10,6 +10,7 @@ mod suite {
     mod record;
     mod relaxation;
     mod report;
+    mod small_model;
     mod solver;
     mod specimens;
     mod store;

@@ -18,6 +18,15 @@ pub struct Series {
     pub bonds: Vec<BondEvent>,
 }
 
+impl Series {
+    /// Area under the average stress across the crack plane over the strain, eV/nm^3, by trapezoids: the work that parts the
+    /// specimen, a volume. `None` with fewer than two probes.
+    pub fn work_density(&self) -> Option<f64> {
+        let strip = |ends: &[Probe]| 0.5 * (ends[0].sigma_yy + ends[1].sigma_yy) * (ends[1].strain - ends[0].strain);
+        (self.probes.len() > 1).then(|| self.probes.windows(2).map(strip).sum())
+    }
+}
+
 /// One row of the time series.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Probe {
@@ -96,4 +105,26 @@ pub struct Setting {
     pub nodes: u64,
     pub elements: u64,
     pub represented_atoms: u64,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_work_is_the_area_under_the_curve() {
+        let probe = |(strain, sigma_yy): (f64, f64)| Probe {
+            strain,
+            sigma_yy,
+            ..Probe::default()
+        };
+        let series = |points: &[(f64, f64)]| Series {
+            probes: points.iter().copied().map(probe).collect(),
+            ..Series::default()
+        };
+        // A triangle of base 0.03 and height 4, whose sides are straight between the probes.
+        let triangle = series(&[(0.0, 0.0), (0.01, 2.0), (0.02, 4.0), (0.03, 0.0)]);
+        assert!((triangle.work_density().unwrap() - 0.06).abs() < 1e-15);
+        assert_eq!(series(&[(0.0, 1.0)]).work_density(), None);
+    }
 }

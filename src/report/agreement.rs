@@ -17,6 +17,7 @@ pub fn notes(cases: &[Analysed], comparisons: &[Comparison], tables: &[Table]) -
         ("First branch", first_branch(cases, comparisons)),
         ("Waves before the first branch", waves(cases)),
         ("Arrivals", arrivals(cases, comparisons)),
+        ("Arrivals not measured", not_measured(cases)),
     ]
     .into_iter()
     .filter_map(|(topic, text)| Some((topic, text?)))
@@ -120,6 +121,19 @@ fn waves(cases: &[Analysed]) -> Option<String> {
         format!(
             "By their speeds and the path of the tip are back at it by then: {}.",
             lines.join("; ")
+        )
+    })
+}
+
+/// Why there may be no measured arrival.
+fn not_measured(cases: &[Analysed]) -> Option<String> {
+    let arrivals: Vec<_> = cases.iter().flat_map(|case| &case.findings.arrivals).collect();
+    let missing = arrivals.iter().filter(|arrival| arrival.measured.is_none()).count();
+    (missing > 0).then(|| {
+        format!(
+            "{missing} of {}: there no front stands out at the gauges from what the running crack sends past them, by the rule \
+             under Method.",
+            arrivals.len()
         )
     })
 }

@@ -32,6 +32,9 @@ const MOST_POINTS: usize = 800;
 /// Share of the x axis that may be empty on the left.
 const LATE: f64 = 0.4;
 
+/// How much of what is behind the band of an uncertainty it hides.
+const SPREAD_OPACITY: f64 = 0.2;
+
 /// Distance of the markers along x.
 const MARKER_GAP: i32 = 64 * FINE;
 
@@ -65,6 +68,8 @@ pub struct Curve {
     /// Chooses colour, dashes and marker; the same case has the same one in all charts.
     pub style: usize,
     pub points: Vec<(f64, f64)>,
+    /// Uncertainty of y to either side, a point; empty where none is shown.
+    pub spread: Vec<f64>,
 }
 
 /// A chart as a file of its own and as part of a page.
@@ -191,6 +196,7 @@ impl Chart {
             .x_desc(&self.x)
             .y_desc(&self.y)
             .draw()?;
+        curves.iter().try_for_each(|curve| curve.draw_spread(&mut chart))?;
         curves.iter().try_for_each(|curve| curve.draw_on(&mut chart))
     }
 }
@@ -228,6 +234,23 @@ impl Curve {
     fn stroke(&self) -> ShapeStyle {
         let [red, green, blue] = palette::LINES[self.style % palette::LINES.len()];
         RGBColor(red, green, blue).stroke_width(2 * FINE as u32)
+    }
+
+    /// A pale band as wide as the uncertainty.
+    fn draw_spread<DB: DrawingBackend>(&self, chart: &mut Axes<DB>) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
+        let bars: Vec<_> = self.points.iter().zip(&self.spread).collect();
+        let pieces = bars.split(|(point, spread)| !(point.1 + **spread).is_finite());
+        for piece in pieces.filter(|piece| piece.len() > 1) {
+            let side = |sign: f64| {
+                let points = piece.iter().map(|(point, spread)| (point.0, point.1 + sign * **spread));
+                thinned(&points.collect::<Vec<_>>())
+            };
+            let outline = side(1.0).into_iter().chain(side(-1.0).into_iter().rev());
+            let [red, green, blue] = palette::LINES[self.style % palette::LINES.len()];
+            let fill = RGBColor(red, green, blue).mix(SPREAD_OPACITY);
+            chart.draw_series([Polygon::new(outline.collect::<Vec<_>>(), fill)])?;
+        }
+        Ok(())
     }
 
     fn draw_on<DB: DrawingBackend>(&self, chart: &mut Axes<DB>) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {

@@ -60,6 +60,7 @@ fn curves(cases: &[Analysed], points: impl Fn(&Analysed) -> Vec<(f64, f64)>) -> 
         label: Analysed::name(case).to_owned(),
         style,
         points: points(case),
+        spread: Vec::new(),
     };
     cases.iter().enumerate().map(curve).collect()
 }
@@ -239,6 +240,7 @@ fn energies(index: usize, case: &Analysed) -> Chart {
         label: label.to_owned(),
         style,
         points: over_strain(case, |row| of(row) / size),
+        spread: Vec::new(),
     };
     Chart {
         id: format!("energy-{index}"),

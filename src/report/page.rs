@@ -172,6 +172,10 @@ fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
         ("started", manifest.started.clone()),
         ("ended", manifest.ended.clone()),
         ("wall time", manifest.wall_seconds.map(numbers::duration)),
+        (
+            "core-seconds",
+            case.core_seconds().map(|seconds| numbers::significant(seconds, 4)),
+        ),
         ("time step", manifest.time_step.map(picoseconds)),
         ("stability limit", manifest.stability_limit.map(picoseconds)),
         ("speed fitted over", case.findings.speed_window.map(picoseconds)),

@@ -227,6 +227,10 @@ fn costs(cases: &[Analysed]) -> Vec<Row> {
         }),
         row(cases, "steps", |case| Some(count(manifest(case).steps?))),
         row(cases, "wall time", |case| Some(duration(manifest(case).wall_seconds?))),
+        row(cases, "core-seconds", |case| Some(significant(case.core_seconds()?, 3))),
+        row(cases, "memory (MB)", |case| {
+            Some(significant(manifest(case).peak_memory? * 1e-6, 3))
+        }),
         row(cases, "million atom-steps a second", |case| {
             Some(significant(case.atom_steps_a_second()? / 1e6, 3))
         }),

@@ -31,8 +31,8 @@ macro_rules! shipped {
 pub static SHIPPED: [Shipped; 12] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
-    shipped!("case-1.yaml"),
-    shipped!("case-2.yaml"),
+    shipped!("case-1.yaml", "case-1/strains.csv"),
+    shipped!("case-2.yaml", "case-2/strains.csv", "case-2/branching.csv"),
     shipped!(
         "models-A-E.yaml",
         "models-A-E/table-5-1.csv",
@@ -42,8 +42,18 @@ pub static SHIPPED: [Shipped; 12] = [
         "models-A-E/table-5-3.csv"
     ),
     shipped!("models-A-E-small.yaml"),
-    shipped!("models-A-E-mixed.yaml"),
-    shipped!("models-A-E-atoms.yaml"),
+    shipped!(
+        "models-A-E-mixed.yaml",
+        "models-A-E/table-5-2.csv",
+        "models-A-E/branching.csv",
+        "models-A-E/table-5-3.csv"
+    ),
+    shipped!(
+        "models-A-E-atoms.yaml",
+        "models-A-E/table-5-2.csv",
+        "models-A-E/branching.csv",
+        "models-A-E/table-5-3.csv"
+    ),
     shipped!("branching-control.yaml"),
     shipped!("convergence-D.yaml"),
     shipped!("scaling-fixed.yaml", "scaling/table-4-2.csv"),

@@ -4,7 +4,7 @@ use crate::report::Analysed;
 use crate::report::expected::shown;
 use crate::report::numbers::{signed_percent, significant};
 use crate::report::toughness::Definition;
-use crate::report::units::PERCENT;
+use crate::report::units::{MEGAJOULE_A_CUBIC_METRE, PERCENT};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Quantity {
@@ -20,6 +20,7 @@ pub enum Quantity {
     BranchTime,
     BranchStrain,
     BranchAngle,
+    WorkDensity,
 }
 
 impl Quantity {
@@ -35,7 +36,13 @@ impl Quantity {
             Self::InitiationTime,
         ];
         all.extend(Definition::ALL.map(Self::StressIntensity));
-        all.extend([Self::PeakSpeed, Self::BranchTime, Self::BranchStrain, Self::BranchAngle]);
+        all.extend([
+            Self::PeakSpeed,
+            Self::BranchTime,
+            Self::BranchStrain,
+            Self::BranchAngle,
+            Self::WorkDensity,
+        ]);
         all
     }
 
@@ -54,6 +61,7 @@ impl Quantity {
             Self::BranchTime => "first_branch_time_ps",
             Self::BranchStrain => "first_branch_strain",
             Self::BranchAngle => "first_branch_angle_deg",
+            Self::WorkDensity => "work_density_mj_m3",
         }
     }
 
@@ -71,6 +79,7 @@ impl Quantity {
             Self::BranchTime => "first branch after (ps)".to_owned(),
             Self::BranchStrain => "first branch at strain (%)".to_owned(),
             Self::BranchAngle => "first branch at angle (°)".to_owned(),
+            Self::WorkDensity => "area under stress over strain (MJ/m³)".to_owned(),
         }
     }
 
@@ -91,6 +100,7 @@ impl Quantity {
             Self::BranchTime => Some(branch()?.time),
             Self::BranchStrain => Some(branch()?.strain),
             Self::BranchAngle => Some(branch()?.angle),
+            Self::WorkDensity => Some(case.result.series.work_density()? * MEGAJOULE_A_CUBIC_METRE),
         }
     }
 
