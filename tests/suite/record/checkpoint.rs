@@ -101,7 +101,7 @@ fn each_wrong_checkpoint_has_its_own_error() {
     fs::write(&path, &bytes).unwrap();
     let error = checkpoint::read(&path, "abc").unwrap_err();
     assert!(
-        matches!(&error, RecordError::OtherFormat { found, readable: 3, .. } if found == "0"),
+        matches!(&error, RecordError::OtherFormat { found, readable: 4, .. } if found == "0"),
         "{error}"
     );
 
