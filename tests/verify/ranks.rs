@@ -1,10 +1,15 @@
 //! Every number of ranks and threads, and every rule that a run may follow, to the same bytes.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
-use cgaft::{plan, study};
+use cgaft::domain::Domain;
+use cgaft::mesh::Mesh;
+use cgaft::record::read_series;
+use cgaft::study::case::Case;
+use cgaft::{plan, setup, study};
 use tempfile::tempdir;
 
 /// Three sizes of triangles and atoms, a crack along a border between ranks, bonds to the second shell; the specimen comes to
@@ -66,6 +71,20 @@ fn solve(case: &Path, ranks: u32, threads: u32) -> PathBuf {
     into
 }
 
+/// Among how many of so many ranks the bonds are shared that broke in a run.
+fn ranks_with_broken_bonds(case: &Case, run: &Path, ranks: u32) -> usize {
+    let plan = setup::mesh_plan(case, &setup::material(case).unwrap()).unwrap();
+    let mesh = Mesh::new(&plan);
+    let domain = Domain::parts(ranks as usize, &mesh, |_| 1.0).next().unwrap();
+    let (_, series) = read_series(&run.join("series.h5")).unwrap();
+    let bonds = series.bonds.iter().filter(|bond| bond.probe > 0 && bond.broken);
+    let elements = bonds.filter_map(|bond| mesh.owner_of([bond.column, bond.row]));
+    elements
+        .map(|element| domain.owner(element))
+        .collect::<BTreeSet<_>>()
+        .len()
+}
+
 #[test]
 fn every_number_of_ranks_and_threads_computes_the_same_bytes_by_every_rule() {
     let folder = tempdir().unwrap();
@@ -76,6 +95,12 @@ fn every_number_of_ranks_and_threads_computes_the_same_bytes_by_every_rule() {
         fs::write(&case, plan::write_case(planned)).unwrap();
         let alone = solve(&case, 1, 1);
         for ranks in [2, 3, 4, 7] {
+            let sharing = ranks_with_broken_bonds(&planned.case, &alone, ranks);
+            assert!(
+                sharing > 1,
+                "{}: the crack stays within one rank of {ranks}",
+                planned.name
+            );
             for threads in [1, 2] {
                 let together = solve(&case, ranks, threads);
                 for name in RESULTS {
