@@ -295,8 +295,7 @@ impl Solver {
             return Ok(());
         };
         let broken = self.forces.broken_bonds(&self.state.position);
-        let events = probe::bond_events(&[], &broken, 0);
-        events.iter().for_each(|event| tracker.apply(event));
+        tracker.follow(&probe::bond_events(&[], &broken, 0));
         let [notch, tip] = [self.setting.crack_length, tracker.tip().x];
         if tip - notch > initiation::threshold(&self.setting) {
             let strain = self.strain();

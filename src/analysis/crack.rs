@@ -25,8 +25,19 @@ pub const YARDSTICK_SPACINGS: usize = 5;
 /// Broken bonds a spacing along a close-packed row.
 pub const BONDS_A_SPACING: usize = 2;
 
+/// Side paths shorter than this are not branches: beside a path through atoms a few bonds break as the crack passes.
+pub const SPUR_SPACINGS: usize = 5;
+
+/// A coarse mesh opens one edge of an element at once; only what is longer than this many edges is a branch there.
+pub const SPUR_ELEMENTS: usize = 2;
+
 const UNREACHED: u32 = u32::MAX;
 const INTACT: u32 = u32::MAX;
+
+/// Length below which a side path is no branch, spacings.
+pub fn spur(setting: &Setting) -> usize {
+    SPUR_SPACINGS.max(SPUR_ELEMENTS * setting.element_at_crack as usize)
+}
 
 /// Where the foremost tip is, reference configuration, nm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -43,6 +54,8 @@ pub struct Tip {
 #[derive(Clone, Debug)]
 pub struct Tracker {
     notch: Notch,
+    /// Bonds from the tip back to where faces that touch no longer end the crack.
+    wake: u32,
     /// Every plaquette with a broken bond, now or before; the mouth is the first. They name each other by index, so
     /// that only a bond that breaks or closes has to be looked up.
     cells: Vec<Cell>,
@@ -84,6 +97,7 @@ impl Tracker {
         let (cells, index) = (Vec::new(), PlaquetteMap::default());
         let mut tracker = Tracker {
             notch,
+            wake: (spur(setting) * BONDS_A_SPACING) as u32,
             cells,
             index,
             foremost: BinaryHeap::new(),
@@ -94,6 +108,39 @@ impl Tracker {
             tracker.open(bond, 0);
         }
         Some(tracker)
+    }
+
+    /// Takes the events between two probes: what breaks first, then what closes, from the tip backwards, so that a crack
+    /// that zips up is told from faces that touch. A bond that closes more than a spur behind the tip is a contact of the
+    /// crack faces: the crack does not end there.
+    pub fn follow(&mut self, events: &[BondEvent]) {
+        let (breaking, mut closing): (Vec<_>, Vec<_>) = events.iter().partition(|event| event.broken);
+        breaking.into_iter().for_each(|event| self.apply(event));
+        closing.sort_by_key(|event| Reverse(self.depth(event)));
+        for event in closing {
+            if self
+                .depth(event)
+                .is_none_or(|depth| depth + self.wake >= self.tip_depth())
+            {
+                self.apply(event);
+            }
+        }
+    }
+
+    /// Bonds beyond the notch that a crack has parted, also where its faces touch: (column, row, direction), ascending.
+    pub fn parted(&self) -> Vec<[i32; 3]> {
+        let bonds = |cell: usize| {
+            let place = self.cells[cell].place;
+            self.sides(cell).map(move |(direction, _)| place.across(direction).0)
+        };
+        let upright = (0..self.cells.len()).filter(|&cell| self.cells[cell].place.upright);
+        let mut parted: Vec<_> = upright
+            .flat_map(bonds)
+            .filter(|&bond| !self.notch.is_cut(bond))
+            .map(|bond| [bond.column, bond.row, i32::from(bond.direction)])
+            .collect();
+        parted.sort_unstable();
+        parted
     }
 
     /// Takes a bond that broke or closed. The notch itself never closes.

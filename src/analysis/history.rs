@@ -1,17 +1,9 @@
 //! The crack through time: its tip at every probe and its branches at the end.
 
-use std::cmp::Reverse;
-
 use super::crack::branches;
-use super::crack::{BONDS_A_SPACING, Tip, Tracker};
+use super::crack::{Tip, Tracker, spur};
 use super::initiation::ARREST_SPEED;
-use super::series::{BondEvent, Series, Setting};
-
-/// Side paths shorter than this are not branches: beside a path through atoms a few bonds break as the crack passes.
-pub const SPUR_SPACINGS: usize = 5;
-
-/// A coarse mesh opens one edge of an element at once; only what is longer than this many edges is a branch there.
-pub const SPUR_ELEMENTS: usize = 2;
+use super::series::{Series, Setting};
 
 /// A crack from its start to the end of the run.
 #[derive(Clone, Debug, Default)]
@@ -39,23 +31,15 @@ pub struct Branch {
     pub arrested: bool,
 }
 
-/// Length below which a side path is no branch, spacings.
-pub fn spur(setting: &Setting) -> usize {
-    SPUR_SPACINGS.max(SPUR_ELEMENTS * setting.element_at_crack as usize)
-}
-
 /// Follows the crack through the bond events; `None` where the specimen has no crack.
-///
-/// A bond that closes more than a spur behind the tip is a contact of the crack faces: the crack does not end there.
 pub fn history(series: &Series, setting: &Setting) -> Option<History> {
     let mut tracker = Tracker::new(setting)?;
-    let wake = (spur(setting) * BONDS_A_SPACING) as u32;
     let mut tips: Vec<Tip> = Vec::with_capacity(series.probes.len());
     let mut events = series.bonds.as_slice();
     for probe in 0..series.probes.len() as u32 {
         let (now, later) = events.split_at(events.partition_point(|event| event.probe <= probe));
         events = later;
-        take(&mut tracker, now, wake);
+        tracker.follow(now);
         let unchanged = tips.last().copied().filter(|_| now.is_empty());
         tips.push(unchanged.unwrap_or_else(|| tracker.tip()));
     }
@@ -63,25 +47,6 @@ pub fn history(series: &Series, setting: &Setting) -> Option<History> {
         branches: branches(&tracker, series, setting),
         tips,
     })
-}
-
-/// Takes the events between two probes: what breaks first, then what closes, from the tip backwards, so that a crack
-/// that zips up is told from faces that touch.
-fn take(tracker: &mut Tracker, events: &[BondEvent], wake: u32) {
-    events
-        .iter()
-        .filter(|event| event.broken)
-        .for_each(|event| tracker.apply(event));
-    let mut closing: Vec<&BondEvent> = events.iter().filter(|event| !event.broken).collect();
-    closing.sort_by_key(|event| Reverse(tracker.depth(event)));
-    for event in closing {
-        if tracker
-            .depth(event)
-            .is_none_or(|depth| depth + wake >= tracker.tip_depth())
-        {
-            tracker.apply(event);
-        }
-    }
 }
 
 fn branches(tracker: &Tracker, series: &Series, setting: &Setting) -> Vec<Branch> {

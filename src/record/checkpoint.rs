@@ -23,7 +23,7 @@ pub fn read(path: &Path, case_id: &str) -> Result<Checkpoint, RecordError> {
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 4,
+        format: 5,
         case_id,
     }
 }
@@ -44,6 +44,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         peak_work,
         peak_imbalance,
         broken_bonds,
+        parted_bonds,
         probes,
         snapshots,
         last_advance,
@@ -68,14 +69,16 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         open_interfaces,
         Packing::Plain,
     )?;
-    put(
-        group,
-        "broken_bonds",
-        "1",
-        &[broken_bonds.len(), 3],
-        broken_bonds.as_flattened(),
-        Packing::Plain,
-    )?;
+    for (name, bonds) in [("broken_bonds", broken_bonds), ("parted_bonds", parted_bonds)] {
+        put(
+            group,
+            name,
+            "1",
+            &[bonds.len(), 3],
+            bonds.as_flattened(),
+            Packing::Plain,
+        )?;
+    }
     for (name, count) in [("step", step), ("probes", probes), ("snapshots", snapshots)] {
         put_scalar(group, name, "1", *count)?;
     }
@@ -116,6 +119,7 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,
         broken_bonds: get_rows(group, "broken_bonds")?,
+        parted_bonds: get_rows(group, "parted_bonds")?,
         probes: get_scalar(group, "probes")?,
         snapshots: get_scalar(group, "snapshots")?,
         last_advance: get_scalar(group, "last_advance")?,

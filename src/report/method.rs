@@ -4,7 +4,7 @@ use super::Analysed;
 use super::numbers::significant;
 use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
-use crate::analysis::history::{SPUR_ELEMENTS, SPUR_SPACINGS};
+use crate::analysis::crack::{SPUR_ELEMENTS, SPUR_SPACINGS};
 use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED};
 use crate::analysis::series::RINGS;
 use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};

@@ -32,6 +32,8 @@ pub struct Checkpoint {
     pub peak_imbalance: f64,
     /// Bonds broken at the last probe, ascending (column, row, direction).
     pub broken_bonds: Vec<[i32; 3]>,
+    /// Bonds that the crack had parted by then, also where its faces touch, ascending.
+    pub parted_bonds: Vec<[i32; 3]>,
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,

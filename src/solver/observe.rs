@@ -5,8 +5,7 @@ use std::time::Instant;
 use super::j_integral::Rings;
 use super::ledger::Balance;
 use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe};
-use crate::analysis::crack::{Tracker, branches};
-use crate::analysis::history;
+use crate::analysis::crack::{Tracker, branches, spur};
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
 
@@ -67,10 +66,10 @@ impl Solver {
         let number = self.probes.taken() - 1;
         let bonds = self.changed_bonds(number as u32);
         if let Some(tracker) = &mut self.tracker {
-            bonds.iter().for_each(|event| tracker.apply(event));
+            tracker.follow(&bonds);
             self.stop.follow(tracker.tip().x, self.time);
             let is_wanted = self.settings.until.after_branch.is_some() && self.stop.branched().is_infinite();
-            if is_wanted && !bonds.is_empty() && branches::arms(tracker, history::spur(&self.setting)).len() > 1 {
+            if is_wanted && !bonds.is_empty() && branches::arms(tracker, spur(&self.setting)).len() > 1 {
                 self.stop.branch(self.time);
             }
         }

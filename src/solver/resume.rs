@@ -33,6 +33,7 @@ impl Solver {
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
             broken_bonds: self.broken.clone(),
+            parted_bonds: self.tracker.as_ref().map_or_else(Vec::new, Tracker::parted),
             probes: self.probes.taken(),
             snapshots: self.snapshots.taken(),
             last_advance: self.stop.last_advance(),
@@ -62,9 +63,7 @@ impl Solver {
         self.tracker = Tracker::new(&self.setting);
         if let Some(tracker) = &mut self.tracker {
             let last_probe = checkpoint.probes.saturating_sub(1) as u32;
-            probe::bond_events(&[], &self.broken, last_probe)
-                .iter()
-                .for_each(|event| tracker.apply(event));
+            tracker.follow(&probe::bond_events(&[], &checkpoint.parted_bonds, last_probe));
         }
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
@@ -103,7 +102,8 @@ impl Solver {
             usize::try_from(direction).is_ok_and(|direction| direction < triangular::NEAREST.len())
                 && mesh.owner_of([column, row]).is_some()
         };
-        if checkpoint.broken_bonds.iter().all(exists) {
+        let mut bonds = checkpoint.broken_bonds.iter().chain(&checkpoint.parted_bonds);
+        if bonds.all(exists) {
             Ok(())
         } else {
             Err("it has bonds of other sites")

@@ -5,9 +5,9 @@ mod waves;
 
 use std::time::{Duration, Instant};
 
-use cgaft::analysis::crack::{Tip, Tracker};
+use cgaft::analysis::crack::{self, Tip, Tracker};
 use cgaft::analysis::series::{BondEvent, Series, Setting};
-use cgaft::analysis::{Findings, analyse, comparison, history};
+use cgaft::analysis::{Findings, analyse, comparison};
 
 use super::synthetic::{SPACING, breaks, kinked, probes, series, setting, straight};
 
@@ -321,5 +321,30 @@ fn cases_are_compared_with_the_one_of_most_nodes_on_the_same_specimen() {
     assert!((difference.stress.unwrap() - 0.02).abs() < EXACT, "{difference:?}");
     assert!(difference.initiation_strain.unwrap() > 0.25, "{difference:?}");
     assert!(difference.speed.unwrap() < 0.2, "{difference:?}");
-    assert_eq!(history::spur(&coarse), 20);
+    assert_eq!(crack::spur(&coarse), 20);
+}
+
+#[test]
+fn a_crack_goes_on_from_the_bonds_it_has_parted_with_its_faces_touching() {
+    let setting = setting();
+    let closing = |bonds: &[[i32; 3]]| -> Vec<BondEvent> {
+        let events = breaks(bonds, 2).into_iter();
+        events.map(|event| BondEvent { broken: false, ..event }).collect()
+    };
+    let mut whole = Tracker::new(&setting).unwrap();
+    whole.follow(&breaks(&straight(99.0, 160.0), 1));
+    whole.follow(&closing(&straight(110.0, 111.0)));
+    let mut resumed = Tracker::new(&setting).unwrap();
+    resumed.follow(&breaks(&whole.parted(), 2));
+    assert!(
+        (resumed.tip().x - 160.0 * SPACING).abs() < SPACING,
+        "{:?}",
+        resumed.tip()
+    );
+    for later in [breaks(&straight(160.0, 170.0), 3), closing(&straight(165.0, 170.0))] {
+        whole.follow(&later);
+        resumed.follow(&later);
+        assert_eq!(whole.tip(), resumed.tip());
+    }
+    assert_eq!(whole.parted(), resumed.parted());
 }

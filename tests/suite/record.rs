@@ -30,6 +30,7 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         peak_work: f64::INFINITY,
         peak_imbalance: number(2),
         broken_bonds: vec![[-1, 2, 0], [i32::MAX, i32::MIN, 2]],
+        parted_bonds: vec![[-1, 2, 0], [0, 3, 1], [i32::MAX, i32::MIN, 2]],
         probes: 12,
         snapshots: 3,
         last_advance: number(3),
