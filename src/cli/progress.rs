@@ -27,7 +27,7 @@ pub fn watcher(terminal: Terminal, store: &Store) -> Box<dyn Watcher> {
 }
 
 /// `about 40 s left  strain 0.310 %  tip 56.2 nm  step 1200/20000`
-fn progress_words(progress: &Progress, pace: &Pace) -> String {
+fn progress_words(progress: &Progress, pace: &mut Pace) -> String {
     // A narrow terminal cuts the end off, so the time left comes first.
     let left = pace
         .seconds_left(progress.percent)

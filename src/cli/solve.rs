@@ -234,6 +234,7 @@ fn compute(
             time_ps: progress.time,
             strain: progress.strain,
             tip_nm: progress.tip,
+            residual: progress.residual,
             percent: 100.0 * progress.step as f64 / of as f64,
         });
     };

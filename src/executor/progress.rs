@@ -13,11 +13,17 @@ pub struct Progress {
     pub strain: f64,
     /// Foremost crack tip from the left edge, nm; `None` without a crack.
     pub tip_nm: Option<f64>,
+    /// While the specimen comes to rest: the largest force left on a node, over the strength of a bond.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub residual: Option<f64>,
     pub percent: f64,
 }
 
 impl fmt::Display for Progress {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        if let Some(residual) = self.residual {
+            return write!(f, "coming to rest: forces down to {residual:.0e} of a bond's strength");
+        }
         write!(f, "strain {:.3} %", 100.0 * self.strain)?;
         if let Some(tip) = self.tip_nm {
             write!(f, "  tip {tip:.1} nm")?;
@@ -45,6 +51,7 @@ mod tests {
             time_ps: 0.1,
             strain: 0.01,
             tip_nm: None,
+            residual: None,
             percent: 70.0,
         };
         assert_eq!(

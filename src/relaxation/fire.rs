@@ -3,7 +3,7 @@
 //! The masses are the stiffness bounds of the elements. No frequency is then above 1, and one time step suits atoms
 //! and triangles alike.
 
-use super::vectors::{add, dot, largest, plain_dot, turn, zeros_like};
+use super::vectors::{add, change, dot, largest, plain_dot, sum, turn, zeros_like};
 use super::{Descent, RelaxationError};
 use crate::forces::Planes;
 
@@ -51,10 +51,12 @@ impl Fire {
             turn(&mut velocity, 1.0 - self.turn, towards, &descent.compliance, force);
             let longest = self.time_step * largest(&velocity) / (LONGEST_MOVE * descent.spacing);
             if longest > 1.0 {
-                velocity.iter_mut().flatten().for_each(|value| *value /= longest);
+                change(&mut velocity, [], |value, []| value / longest);
             }
             add(&mut descent.state.position, self.time_step, &velocity);
             descent.evaluate()?;
+            let residual = descent.residual();
+            (descent.tell)(residual);
         }
         Ok(())
     }
@@ -72,7 +74,7 @@ impl Fire {
                 self.time_step *= SHORTER;
             }
             add(&mut descent.state.position, -0.5 * self.time_step, velocity);
-            velocity.iter_mut().flatten().for_each(|value| *value = 0.0);
+            change(velocity, [], |_, []| 0.0);
             self.downhill = 0;
             self.turn = TURN;
         }
@@ -80,14 +82,14 @@ impl Fire {
 
     /// Speed, weighted by the masses, after a kick by the force.
     fn kicked_speed(&self, descent: &Descent, velocity: &Planes, pull: f64) -> f64 {
-        let mut squared = 0.0;
-        for axis in 0..2 {
-            for (value, compliance) in velocity[axis].iter().zip(&descent.compliance[axis]) {
-                if *compliance > 0.0 {
-                    squared += value * value / compliance;
-                }
+        // Where the motion is prescribed both are zero.
+        let squared = sum([velocity, &descent.compliance], |[value, compliance]| {
+            if compliance > 0.0 {
+                value * value / compliance
+            } else {
+                0.0
             }
-        }
+        });
         let along = plain_dot(&descent.state.force, velocity);
         let time = self.time_step;
         (squared + 2.0 * time * along + time * time * pull).max(0.0).sqrt()

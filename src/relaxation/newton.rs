@@ -1,14 +1,16 @@
 //! Newton's method with conjugate gradients; the product of stiffness and vector is a difference of forces.
 
-use super::vectors::{add, dot, largest, plain_dot, turn, zeros_like};
+use super::vectors::{add, change, dot, largest, sum, turn, zeros_like};
 use super::{Descent, RelaxationError};
 use crate::forces::Planes;
 
 /// Longest displacement in a difference of forces, in spacings: the third derivative of the energy then disturbs the
 /// stiffness by some 1e-5, and rounding by 1e-8.
 const DIFFERENCE: f64 = 1e-6;
-/// Share of the residual at which the linear equations count as solved.
+/// Share of the residual at which the linear equations count as solved, unless less will do for the target.
 const LINEAR_SHARE: f64 = 1e-3;
+/// What the linear equations may leave of the target.
+const TARGET_SHARE: f64 = 0.1;
 /// Most products for one direction, per square root of the number of nodes: some ten times what elasticity takes.
 const MOST_PRODUCTS: f64 = 50.0;
 /// What a step must leave at most of the squared residual to count as one.
@@ -42,13 +44,15 @@ impl Descent<'_> {
     }
 
     /// Solves stiffness times direction = force, as far as it takes a sensible number of products. `None`: the stiffness
-    /// is not positive.
+    /// is not positive. Leaves the positions displaced.
     fn newton_direction(&mut self, position: &Planes, force: &Planes) -> Result<Option<Planes>, RelaxationError> {
         let mut direction = zeros_like(force);
         let mut rest = force.clone();
         let mut search = zeros_like(force);
         let mut square = dot(&self.compliance, &rest, &rest);
-        let enough = square * LINEAR_SHARE * LINEAR_SHARE;
+        let residual = self.residual();
+        let share = LINEAR_SHARE.max(TARGET_SHARE * self.target.residual / residual);
+        let [first, enough] = [square, square * share * share];
         let mut kept = 0.0;
         let most = (MOST_PRODUCTS * (force[0].len() as f64).sqrt()) as usize;
         for _ in 0..most {
@@ -56,35 +60,30 @@ impl Descent<'_> {
                 break;
             }
             turn(&mut search, kept, 1.0, &self.compliance, &rest);
-            let product = self.stiffness_times(&search, position, force)?;
-            let curvature = plain_dot(&search, &product);
+            // Stiffness times vector: what forces lose over a short way, by its length.
+            let way = DIFFERENCE * self.spacing / largest(&search);
+            change(&mut self.state.position, [position, &search], |_, [start, search]| {
+                start + way * search
+            });
+            self.evaluate()?;
+            let moved = &self.state.force;
+            let curvature = sum([&search, force, moved], |[search, force, moved]| {
+                search * (force - moved)
+            }) / way;
             if curvature <= 0.0 {
                 return Ok(None);
             }
             let step = square / curvature;
             add(&mut direction, step, &search);
-            add(&mut rest, -step, &product);
+            let steps = step / way;
+            change(&mut rest, [force, moved], |rest, [force, moved]| {
+                rest - steps * (force - moved)
+            });
             let next = dot(&self.compliance, &rest, &rest);
             kept = next / square;
             square = next;
+            (self.tell)(residual * (square / first).sqrt());
         }
         Ok(Some(direction))
-    }
-
-    /// Leaves the positions displaced.
-    fn stiffness_times(
-        &mut self,
-        vector: &Planes,
-        position: &Planes,
-        force: &Planes,
-    ) -> Result<Planes, RelaxationError> {
-        let step = DIFFERENCE * self.spacing / largest(vector);
-        self.state.position.clone_from(position);
-        add(&mut self.state.position, step, vector);
-        self.evaluate()?;
-        let mut product = force.clone();
-        add(&mut product, -1.0, &self.state.force);
-        product.iter_mut().flatten().for_each(|value| *value /= step);
-        Ok(product)
     }
 }

@@ -1,37 +1,92 @@
 //! Algebra of node vectors. A weight of zero marks a component whose motion is prescribed.
+//!
+//! Threads share the work by parts of fixed length, and sums of parts are added in their order: the number of threads leaves no
+//! trace.
+
+use rayon::prelude::*;
 
 use crate::forces::Planes;
 
-/// Sum of weight a b.
-pub fn dot(weight: &Planes, a: &Planes, b: &Planes) -> f64 {
+/// Numbers that a thread takes at once.
+const PART: usize = 1 << 14;
+
+/// Numbers that are computed side by side.
+const LANES: usize = 8;
+
+/// Sum of the terms of all components.
+pub fn sum<const N: usize>(vectors: [&Planes; N], term: impl Fn([f64; N]) -> f64 + Sync) -> f64 {
     let plane = |axis: usize| {
-        let terms = weight[axis].iter().zip(&a[axis]).zip(&b[axis]);
-        terms.map(|((weight, a), b)| weight * a * b).sum::<f64>()
+        let planes = vectors.map(|vector| &vector[axis]);
+        let parts = 0..planes[0].len().div_ceil(PART);
+        let part = |number: usize| sum_of_part(planes.map(|plane| part_of(plane, number)), &term);
+        let sums: Vec<f64> = parts.into_par_iter().map(part).collect();
+        sums.iter().sum::<f64>()
     };
     plane(0) + plane(1)
 }
 
+fn sum_of_part<const N: usize>(slices: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
+    let split = slices.map(|slice| slice.as_chunks::<LANES>());
+    let mut sums = [0.0; LANES];
+    for k in 0..split[0].0.len() {
+        let blocks = split.map(|(blocks, _)| &blocks[k]);
+        for lane in 0..LANES {
+            sums[lane] += term(blocks.map(|block| block[lane]));
+        }
+    }
+    let rest = (0..split[0].1.len()).map(|k| term(split.map(|(_, rest)| rest[k])));
+    sums.into_iter().chain(rest).sum()
+}
+
+/// Puts what the rule makes of every component and those of other vectors in its place.
+pub fn change<const N: usize>(target: &mut Planes, vectors: [&Planes; N], rule: impl Fn(f64, [f64; N]) -> f64 + Sync) {
+    for axis in 0..2 {
+        let parts = target[axis].par_chunks_mut(PART).enumerate();
+        parts.for_each(|(number, values)| {
+            change_part(values, vectors.map(|vector| part_of(&vector[axis], number)), &rule);
+        });
+    }
+}
+
+fn change_part<const N: usize>(target: &mut [f64], slices: [&[f64]; N], rule: impl Fn(f64, [f64; N]) -> f64) {
+    let (target, rest_of_target) = target.as_chunks_mut::<LANES>();
+    let split = slices.map(|slice| slice.as_chunks::<LANES>());
+    for (k, values) in target.iter_mut().enumerate() {
+        let blocks = split.map(|(blocks, _)| &blocks[k]);
+        for lane in 0..LANES {
+            values[lane] = rule(values[lane], blocks.map(|block| block[lane]));
+        }
+    }
+    for (k, value) in rest_of_target.iter_mut().enumerate() {
+        *value = rule(*value, split.map(|(_, rest)| rest[k]));
+    }
+}
+
+fn part_of(plane: &[f64], number: usize) -> &[f64] {
+    let rest = &plane[number * PART..];
+    &rest[..rest.len().min(PART)]
+}
+
+/// Sum of weight a b.
+pub fn dot(weight: &Planes, a: &Planes, b: &Planes) -> f64 {
+    sum([weight, a, b], |[weight, a, b]| weight * a * b)
+}
+
 /// Sum of a b.
 pub fn plain_dot(a: &Planes, b: &Planes) -> f64 {
-    let plane = |axis: usize| a[axis].iter().zip(&b[axis]).map(|(a, b)| a * b).sum::<f64>();
-    plane(0) + plane(1)
+    sum([a, b], |[a, b]| a * b)
 }
 
 /// target += factor vector
 pub fn add(target: &mut Planes, factor: f64, vector: &Planes) {
-    for axis in 0..2 {
-        let pairs = target[axis].iter_mut().zip(&vector[axis]);
-        pairs.for_each(|(target, value)| *target += factor * value);
-    }
+    change(target, [vector], |target, [value]| target + factor * value);
 }
 
 /// target = kept target + factor weight vector
 pub fn turn(target: &mut Planes, kept: f64, factor: f64, weight: &Planes, vector: &Planes) {
-    for axis in 0..2 {
-        let terms = weight[axis].iter().zip(&vector[axis]);
-        let pairs = target[axis].iter_mut().zip(terms);
-        pairs.for_each(|(target, (weight, value))| *target = kept * *target + factor * weight * value);
-    }
+    change(target, [weight, vector], |target, [weight, value]| {
+        kept * target + factor * weight * value
+    });
 }
 
 pub fn zeros_like(vector: &Planes) -> Planes {
@@ -40,15 +95,50 @@ pub fn zeros_like(vector: &Planes) -> Planes {
 
 /// Largest component by size.
 pub fn largest(vector: &Planes) -> f64 {
-    vector
-        .iter()
-        .flatten()
-        .fold(0.0, |largest, value| largest.max(value.abs()))
+    let sizes = |plane: &Vec<f64>| {
+        plane
+            .par_iter()
+            .with_min_len(PART)
+            .map(|value| value.abs())
+            .reduce(|| 0.0, f64::max)
+    };
+    sizes(&vector[0]).max(sizes(&vector[1]))
 }
 
 /// Largest component, by size, among those whose weight is not zero.
 pub fn largest_free(vector: &Planes, weight: &Planes) -> f64 {
-    let components = vector.iter().flatten().zip(weight.iter().flatten());
-    let free = components.filter(|(_, weight)| **weight > 0.0);
-    free.fold(0.0, |largest, (value, _)| largest.max(value.abs()))
+    let sizes = |axis: usize| {
+        let components = vector[axis].par_iter().zip(&weight[axis]).with_min_len(PART);
+        let free = components.map(|(value, weight)| if *weight > 0.0 { value.abs() } else { 0.0 });
+        free.reduce(|| 0.0, f64::max)
+    };
+    sizes(0).max(sizes(1))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Whole numbers, so that sums are exact in any order; neither parts nor lanes come out even.
+    fn ramp(step: f64) -> Planes {
+        let plane = |first: f64| {
+            (0..2 * PART + LANES + 3)
+                .map(|k| first + step * (k % 100) as f64)
+                .collect()
+        };
+        [plane(1.0), plane(-7.0)]
+    }
+
+    #[test]
+    fn parts_and_lanes_leave_nothing_out() {
+        let (a, b) = (ramp(1.0), ramp(-2.0));
+        let flat = |vector: &Planes| vector.concat();
+        let plain: f64 = flat(&a).iter().zip(flat(&b)).map(|(a, b)| a * b).sum();
+        assert_eq!(plain_dot(&a, &b), plain);
+        let mut turned = a.clone();
+        turn(&mut turned, 3.0, 0.5, &b, &a);
+        let wanted = flat(&a).into_iter().zip(flat(&b)).map(|(a, b)| 3.0 * a + 0.5 * b * a);
+        assert_eq!(flat(&turned), wanted.collect::<Vec<_>>());
+        assert_eq!(largest(&b), 205.0);
+    }
 }

@@ -121,19 +121,21 @@ impl Solver {
             bonds,
         };
         observer.probe(&reading).map_err(RunError::Output)?;
-        observer.progress(&Progress {
+        observer.progress(&self.progress());
+        Ok(())
+    }
+
+    pub(super) fn progress(&self) -> Progress {
+        let time_of = |strain| self.loading.time_of(strain);
+        let until = &self.settings.until;
+        Progress {
             step: self.step,
-            of: self
-                .settings
-                .until
-                .steps(self.step, self.time, self.time_step, |strain| {
-                    self.loading.time_of(strain)
-                }),
+            of: until.steps(self.step, self.time, self.time_step, time_of),
             time: self.time,
             strain: self.strain(),
             tip: self.tracker.as_ref().map(|_| self.stop.farthest_tip()),
-        });
-        Ok(())
+            residual: None,
+        }
     }
 
     /// Where the fastest node of all ranks was before the loading.

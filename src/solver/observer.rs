@@ -15,7 +15,7 @@ pub trait Observer {
     /// All probes and snapshots up to here must be safe before the checkpoint is.
     /// `cost` is that of this part of the run.
     fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), Self::Error>;
-    /// Called at every probe.
+    /// Called at every probe, and again and again while the specimen comes to rest.
     fn progress(&mut self, progress: &Progress);
 }
 
@@ -59,4 +59,6 @@ pub struct Progress {
     pub strain: f64,
     /// Distance of the foremost tip from the left edge, nm.
     pub tip: Option<f64>,
+    /// While the specimen comes to rest: the largest force left on a node, over the strength of a bond.
+    pub residual: Option<f64>,
 }

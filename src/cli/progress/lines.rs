@@ -28,7 +28,7 @@ impl Lines {
 }
 
 impl Lines {
-    fn now_and_then(&mut self, job: &Job, percent: f64, words: impl FnOnce(&Pace) -> String) {
+    fn now_and_then(&mut self, job: &Job, percent: f64, words: impl FnOnce(&mut Pace) -> String) {
         let begin = || (Pace::starting_at(percent), Instant::now());
         let (pace, said) = self.cases.entry(job.id.clone()).or_insert_with(begin);
         if said.elapsed() >= LINE_EVERY {

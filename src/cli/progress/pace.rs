@@ -16,8 +16,12 @@ impl Pace {
         }
     }
 
-    /// Seconds until the end; `None` before there is anything to judge by, and at the end.
-    pub fn seconds_left(&self, percent: f64) -> Option<f64> {
+    /// Seconds until the end; `None` before there is anything to judge by, and at the end. The time before the first gain
+    /// does not count.
+    pub fn seconds_left(&mut self, percent: f64) -> Option<f64> {
+        if percent <= self.from {
+            self.start = Instant::now();
+        }
         remaining(self.start.elapsed().as_secs_f64(), percent - self.from, 100.0 - percent)
     }
 }

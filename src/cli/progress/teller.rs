@@ -57,7 +57,7 @@ pub fn teller(style: Option<Style>, name: &str) -> Box<dyn FnMut(&Progress) + Se
     }
 }
 
-fn log_line(progress: &Progress, pace: &Pace) {
+fn log_line(progress: &Progress, pace: &mut Pace) {
     warn(&format!(
         "{:.0} %  {}",
         progress.percent,
@@ -67,7 +67,10 @@ fn log_line(progress: &Progress, pace: &Pace) {
 
 /// Lets the first message through, then one every so often, and at the end the last that was held back, so that
 /// whoever listens knows how far it came.
-fn throttled(every: Duration, tell: impl FnMut(&Progress, &Pace) + Send + 'static) -> Box<dyn FnMut(&Progress) + Send> {
+fn throttled(
+    every: Duration,
+    tell: impl FnMut(&Progress, &mut Pace) + Send + 'static,
+) -> Box<dyn FnMut(&Progress) + Send> {
     let mut valve = Valve {
         tell,
         since: None,
@@ -77,32 +80,32 @@ fn throttled(every: Duration, tell: impl FnMut(&Progress, &Pace) + Send + 'stati
 }
 
 /// What stands between many messages and few.
-struct Valve<F: FnMut(&Progress, &Pace)> {
+struct Valve<F: FnMut(&Progress, &mut Pace)> {
     tell: F,
     since: Option<(Pace, Instant)>,
     held: Option<(Progress, Pace)>,
 }
 
-impl<F: FnMut(&Progress, &Pace)> Valve<F> {
+impl<F: FnMut(&Progress, &mut Pace)> Valve<F> {
     fn take(&mut self, progress: &Progress, every: Duration) {
-        let (pace, told) = match self.since {
+        let (mut pace, told) = match self.since {
             Some((pace, told)) => (pace, Some(told)),
             None => (Pace::starting_at(progress.percent), None),
         };
         if told.is_none_or(|told| told.elapsed() >= every) {
+            (self.tell)(progress, &mut pace);
             self.since = Some((pace, Instant::now()));
             self.held = None;
-            (self.tell)(progress, &pace);
         } else {
             self.held = Some((*progress, pace));
         }
     }
 }
 
-impl<F: FnMut(&Progress, &Pace)> Drop for Valve<F> {
+impl<F: FnMut(&Progress, &mut Pace)> Drop for Valve<F> {
     fn drop(&mut self) {
-        if let Some((progress, pace)) = self.held.take() {
-            (self.tell)(&progress, &pace);
+        if let Some((progress, mut pace)) = self.held.take() {
+            (self.tell)(&progress, &mut pace);
         }
     }
 }
