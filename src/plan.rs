@@ -5,6 +5,7 @@ mod difference;
 mod expansion;
 mod identity;
 mod name;
+mod named_cases;
 mod range;
 mod scaling;
 mod side_by_side;

@@ -1,7 +1,8 @@
 //! `report.beside` and `report.side-by-side`: what the report sets side by side.
 
 use super::expansion::Draft;
-use super::{name, stages};
+use super::name;
+use super::named_cases::named_cases;
 use crate::study::{Finding, Findings, Given, Name, SideBySideFile, Study};
 use serde::Serialize;
 
@@ -13,7 +14,7 @@ pub struct SideBySide {
     pub cases: Vec<String>,
     /// Difference of the strains at initiation over that of the first.
     pub initiation_strain: Option<f64>,
-    /// Time between the first branches, ps.
+    /// How much later after its start than the first a crack may branch, or earlier, ps.
     pub first_branch: Option<f64>,
 }
 
@@ -46,18 +47,7 @@ pub fn resolve(study: &Study, drafts: &[Draft], findings: &Findings) -> Vec<Side
 }
 
 fn set(name: &Name, typed: &SideBySideFile, drafts: &[Draft], findings: &Findings) -> SideBySide {
-    let mut cases = Vec::new();
-    for given in typed.cases.right().into_iter().flatten() {
-        let Given::Right(wanted, place) = given else { continue };
-        let found = drafts
-            .iter()
-            .filter(|draft| draft.name == *wanted || draft.origin == *wanted);
-        let before = cases.len();
-        cases.extend(found.map(|draft| draft.name.clone()));
-        if cases.len() == before {
-            stages::refuse_unknown(wanted, *place, drafts, findings);
-        }
-    }
+    let cases = named_cases(&typed.cases, drafts, findings);
     let few = |given: &Vec<Given<String>>| given.len() < 2 && cases.len() < 2;
     if matches!(typed.cases, Given::Absent) || typed.cases.right().is_some_and(few) {
         let message = format!("`{}` sets no two cases side by side", name.text);

@@ -124,10 +124,11 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                  is added. It is known to a probe, and comes late by up to half of the time in which the front rises. \
                  Absent where this bend is not {LEAST_SCATTERS} times the scatter before initiation and {LEAST_RIVALS} \
                  times any before it, or \
-                 comes {} % off the prediction or more; behind cracks longer than half of the height, where other waves \
+                 comes {} % before the prediction or {} % after it; behind cracks longer than half of the height, where other waves \
                  come first; and for Rayleigh waves, which have no plane front.",
                 percent(AFTER_SHARE),
                 percent(BEFORE_SHARE),
+                percent(AFTER_SHARE),
                 percent(WINDOW)
             ),
         ),

@@ -45,12 +45,12 @@ struct Wanted<'a> {
     title: String,
 }
 
-/// All that a study asks for: how every case ends; with `report.stages` one of them at its strains and in motion, and
-/// all that branch where they do.
+/// All that a study asks for: how every case ends; with `report.stages` some at its strains, the first of them in motion,
+/// and all that branch where they do.
 pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> Result<Vec<Gallery>, ReportError> {
     let mut galleries = Vec::new();
     if let Some(stages) = stages {
-        let title = format!("{} through time", stages.case);
+        let title = format!("{} through time", stages.cases.join(", "));
         let mut gallery = gallery(title, &stage_frames(cases, stages), Shade::Stress, folder)?;
         gallery.pictures.extend(animation::draw(cases, stages, folder)?);
         galleries.push(gallery);
@@ -108,20 +108,21 @@ fn branching<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
     with_film(cases).filter_map(fork).collect()
 }
 
+/// The cases one after the other, each through all its strains.
 fn stage_frames<'a>(cases: &'a [Analysed<'a>], stages: &Stages) -> Vec<Wanted<'a>> {
-    let Some((_, case, film)) = with_film(cases).find(|(_, case, _)| case.name() == stages.case) else {
-        return Vec::new();
-    };
-    let stage = |(index, strain): (usize, &f64)| {
+    let named = |name: &String| with_film(cases).find(|(_, case, _)| case.name() == name);
+    let shown = stages.cases.iter().filter_map(named);
+    let moments = shown.flat_map(|(_, case, film)| stages.strains.iter().map(move |strain| (case, film, *strain)));
+    let wanted = |(index, (case, film, strain)): (usize, (&'a Analysed<'a>, &'a Film, f64))| {
         Some(Wanted {
             case,
             film,
-            frame: film.nearest(*strain, |(_, strain)| strain)?,
+            frame: film.nearest(strain, |(_, strain)| strain)?,
             file: format!("stage-{index}.png"),
             title: format!("{} at {} %", case.name(), numbers::significant(strain * PERCENT, 3)),
         })
     };
-    stages.strains.iter().enumerate().filter_map(stage).collect()
+    moments.enumerate().filter_map(wanted).collect()
 }
 
 /// Draws pictures on one scale.

@@ -63,9 +63,21 @@ pub fn done(cases: &[Analysed]) -> String {
     }
 }
 
-/// One sentence or two that answer: did it work, when does the crack start, what does coarseness save and cost?
+/// `They took 24 min of a core in all, and 281 MB of memory at most.`
+fn effort(cases: &[Analysed]) -> Option<String> {
+    let seconds: Option<f64> = cases.iter().filter_map(|case| case.core_seconds()).reduce(|a, b| a + b);
+    let memory = cases.iter().filter_map(|case| case.result.manifest.peak_memory);
+    let most = memory.max_by(f64::total_cmp).map(|bytes| significant(bytes * 1e-6, 3));
+    let memory = most.map_or(String::new(), |megabytes| {
+        format!(", and {megabytes} MB of memory at most")
+    });
+    Some(format!("They took {} of a core in all{memory}.", duration(seconds?)))
+}
+
+/// Some sentences that answer: did it work, for what effort, when does the crack start, what does coarseness save and cost?
 pub fn verdict(cases: &[Analysed]) -> String {
     let mut sentences = vec![done(cases)];
+    sentences.extend(effort(cases));
     sentences.extend(cases.iter().enumerate().filter_map(|(index, reference)| {
         // Each specimen has a case of its own that the others are measured against; one without a crack says nothing.
         let has_crack = !reference.findings.tips.is_empty();

@@ -13,7 +13,7 @@ use crate::analysis::series::{Series, Setting};
 pub const LEAST_SCATTERS: f64 = 4.0;
 pub const LEAST_RIVALS: f64 = 2.0;
 
-/// Share of the predicted time by which an arrival may be off. What comes before is something else.
+/// Share of the predicted time by which an arrival may be late. What comes earlier than a kink can be told is something else.
 pub const WINDOW: f64 = 0.2;
 
 /// A kink is how far the mean of the probes that follow lies off the line through those before: over these shares of the
@@ -66,7 +66,7 @@ pub(super) fn pick(
     let rival = rivals.iter().copied().fold(0.0, f64::max);
     let measured = arrival(start.probe + largest);
     let stands_out = heard[largest] > LEAST_SCATTERS * scatter && heard[largest] > LEAST_RIVALS * rival;
-    (stands_out && measured >= (1.0 - WINDOW) * predicted).then_some(measured)
+    (stands_out && measured >= (1.0 - AFTER_SHARE) * predicted).then_some(measured)
 }
 
 /// What moves towards the tip past the gauges of a path at every probe, eV/nm^3, and their way to the tip, nm. Both sides

@@ -19,9 +19,11 @@ const WIDTH: usize = 400;
 const TALLEST: usize = 400;
 const PICTURES_A_SECOND: u16 = 10;
 
-/// The case of the stages in motion; `None` where it has fewer than two pictures.
+/// The first case of the stages in motion; `None` where it has fewer than two pictures.
 pub fn draw(cases: &[Analysed], stages: &Stages, folder: &Path) -> Result<Option<Picture>, ReportError> {
-    let case = cases.iter().find(|case| case.name() == stages.case);
+    let case = cases
+        .iter()
+        .find(|case| Some(case.name()) == stages.cases.first().map(String::as_str));
     let Some((case, film)) = case.and_then(|case| Some((case, case.result.film.as_ref()?))) else {
         return Ok(None);
     };

@@ -1,6 +1,7 @@
 //! What is told of cases that stand side by side.
 
 use crate::report::Analysed;
+use crate::report::branching;
 use crate::report::expected::shown;
 use crate::report::numbers::{signed_percent, significant};
 use crate::report::toughness::Definition;
@@ -58,7 +59,7 @@ impl Quantity {
             Self::InitiationTime => "initiation_time_ps",
             Self::StressIntensity(definition) => definition.column(),
             Self::PeakSpeed => "peak_speed_over_c_r",
-            Self::BranchTime => "first_branch_time_ps",
+            Self::BranchTime => "first_branch_after_start_ps",
             Self::BranchStrain => "first_branch_strain",
             Self::BranchAngle => "first_branch_angle_deg",
             Self::WorkDensity => "work_density_mj_m3",
@@ -76,7 +77,7 @@ impl Quantity {
             Self::InitiationTime => "crack starts after (ps)".to_owned(),
             Self::StressIntensity(definition) => format!("K at initiation, {} (MPa √m)", definition.words()),
             Self::PeakSpeed => "highest speed / c_R".to_owned(),
-            Self::BranchTime => "first branch after (ps)".to_owned(),
+            Self::BranchTime => "first branch after the start (ps)".to_owned(),
             Self::BranchStrain => "first branch at strain (%)".to_owned(),
             Self::BranchAngle => "first branch at angle (°)".to_owned(),
             Self::WorkDensity => "area under stress over strain (MJ/m³)".to_owned(),
@@ -97,7 +98,7 @@ impl Quantity {
             Self::InitiationTime => Some(case.findings.initiation?.time),
             Self::StressIntensity(definition) => definition.value(case),
             Self::PeakSpeed => case.peak_speed_over_rayleigh(),
-            Self::BranchTime => Some(branch()?.time),
+            Self::BranchTime => branching::after_start(case),
             Self::BranchStrain => Some(branch()?.strain),
             Self::BranchAngle => Some(branch()?.angle),
             Self::WorkDensity => Some(case.result.series.work_density()? * MEGAJOULE_A_CUBIC_METRE),
@@ -125,8 +126,12 @@ impl Quantity {
     }
 }
 
+/// What rounding leaves of equal moments, ps, and angles, degrees.
+const ROUNDING: f64 = 1e-9;
+
 /// `+12 ps`
 pub fn signed(value: f64, unit: &str) -> String {
+    let value = if value.abs() < ROUNDING { 0.0 } else { value };
     let sign = if value > 0.0 { "+" } else { "" };
     format!("{sign}{} {unit}", significant(value, 3))
 }

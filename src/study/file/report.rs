@@ -11,7 +11,7 @@ use serde::Deserialize;
 pub struct Report {
     /// Headline of the report; the name of the study where left out.
     pub title: Given<String>,
-    /// A case to be shown in pictures at strains of interest, and in motion.
+    /// Cases to be shown in pictures at strains of interest, the first of them also in motion.
     pub stages: Given<Stages>,
     /// The cases differ in `run.ranks`, to learn what ranks gain: every case has a run of its own, and the report shows
     /// speedup and efficiency.
@@ -23,12 +23,12 @@ pub struct Report {
     pub side_by_side: Given<Named<SideBySideFile>>,
 }
 
-/// The pictures nearest to these strains are shown, and all pictures one after the other.
+/// The pictures nearest to these strains are shown, and all of the first case one after the other.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Stages {
-    /// Name of the case.
-    pub of: Given<String>,
+    /// Names of the cases.
+    pub cases: Given<Vec<Given<String>>>,
     pub strains: Given<Vec<Given<Fraction>>>,
 }
 
@@ -69,6 +69,6 @@ pub struct SideBySideFile {
 pub struct Agreement {
     /// Difference of the strains at initiation, over that of the first.
     pub initiation_strain: Given<Fraction>,
-    /// Time between the first branches.
+    /// Difference of the times from start to first branch.
     pub first_branch: Given<Time>,
 }

@@ -9,7 +9,7 @@ use crate::suite::synthetic::setting;
 /// The cracks of `mixed` and `atoms` start at 1.82 % and 1.80 % and fork; their films have pictures at 1.4 % and 2.8 %.
 fn with_stages() -> Study {
     let stages = Stages {
-        case: "atoms".to_owned(),
+        cases: vec!["atoms".to_owned()],
         strains: vec![0.01, 0.03],
     };
     let value = |case: &str, column, value| Expected {
