@@ -65,7 +65,7 @@ pub fn done(cases: &[Analysed]) -> String {
 
 /// `They took 24 min of a core in all, and 281 MB of memory at most.`
 fn effort(cases: &[Analysed]) -> Option<String> {
-    let seconds: Option<f64> = cases.iter().filter_map(|case| case.core_seconds()).reduce(|a, b| a + b);
+    let seconds = cases.iter().filter_map(Analysed::core_seconds).reduce(|a, b| a + b);
     let memory = cases.iter().filter_map(|case| case.result.manifest.peak_memory);
     let most = memory.max_by(f64::total_cmp).map(|bytes| significant(bytes * 1e-6, 3));
     let memory = most.map_or(String::new(), |megabytes| {
