@@ -60,11 +60,7 @@ speed-against-error: build
 	benches/lammps.sh $(TARGET)/release/cgaft > $(TARGET)/lammps.csv
 	cp $(TARGET)/lammps.csv studies/speed-against-error/lammps.csv
 	$(TARGET)/release/cgaft study run studies/speed-against-error.yaml --fresh --jobs 2 --results $(TARGET)/results
-	mkdir -p reports/speed-against-error
-	rm -rf reports/speed-against-error/tables reports/speed-against-error/figures
-	cp -r $(TARGET)/results/speed-against-error/tables $(TARGET)/results/speed-against-error/figures reports/speed-against-error
-	rm reports/speed-against-error/figures/*.png reports/speed-against-error/tables/stress_*.csv reports/speed-against-error/tables/crack_speed.csv
-	grep -v figures/slab- $(TARGET)/results/speed-against-error/report.md > reports/speed-against-error/report.md
+	reports/keep $(TARGET)/results/speed-against-error
 
 # A study at a time; of models A to E in atoms only D, which takes minutes.
 chapter-5: $(CHAPTER_5)
