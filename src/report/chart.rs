@@ -8,6 +8,7 @@ pub mod scatter;
 use std::fmt::Display;
 use std::sync::Once;
 
+use plotters::coord::Shift;
 use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
@@ -167,20 +168,13 @@ impl Chart {
         &self,
         curves: &[Curve],
         legend: &Legend,
-        root: &DrawingArea<DB, plotters::coord::Shift>,
+        root: &DrawingArea<DB, Shift>,
     ) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
         root.fill(&WHITE)?;
         legend.draw(root)?;
         let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
         let (x, y) = ranges(curves);
-        let mut chart = ChartBuilder::on(root)
-            .margin_left(4 * FINE)
-            .margin_right(18 * FINE)
-            .margin_bottom(4 * FINE)
-            .margin_top(legend.height() + 6 * FINE)
-            .x_label_area_size(48 * FINE)
-            .y_label_area_size(74 * FINE)
-            .build_cartesian_2d(x, y)?;
+        let mut chart = framed(root, legend.height() + 6 * FINE).build_cartesian_2d(x, y)?;
         chart
             .configure_mesh()
             .x_labels(6)
@@ -199,6 +193,19 @@ impl Chart {
         curves.iter().try_for_each(|curve| curve.draw_spread(&mut chart))?;
         curves.iter().try_for_each(|curve| curve.draw_on(&mut chart))
     }
+}
+
+/// A chart with room for the numbers and names of its axes, and so much above it.
+fn framed<'a, DB: DrawingBackend>(root: &'a DrawingArea<DB, Shift>, above: i32) -> ChartBuilder<'a, 'a, DB> {
+    let mut chart = ChartBuilder::on(root);
+    chart
+        .margin_left(4 * FINE)
+        .margin_right(18 * FINE)
+        .margin_bottom(4 * FINE)
+        .margin_top(above)
+        .x_label_area_size(48 * FINE)
+        .y_label_area_size(74 * FINE);
+    chart
 }
 
 /// What the axes span: the data, zero, and a little more above and below.

@@ -4,7 +4,7 @@ use plotters::coord::Shift;
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
 
-use super::{FAINT, FINE, INK, TEXT};
+use super::{FAINT, FINE, INK, TEXT, framed};
 use crate::report::{numbers, palette};
 
 /// Curves and marks over ranks.
@@ -57,13 +57,7 @@ impl OverRanks {
         let right = points().map(|place| place.0).fold(1.0, f64::max);
         let top = points().map(|place| place.1).fold(1.0, f64::max);
         let low = points().map(|place| place.1).fold(0.0, f64::min);
-        let mut chart = ChartBuilder::on(root)
-            .margin_left(4 * FINE)
-            .margin_right(18 * FINE)
-            .margin_bottom(4 * FINE)
-            .margin_top(legend + 6 * FINE)
-            .x_label_area_size(48 * FINE)
-            .y_label_area_size(74 * FINE)
+        let mut chart = framed(root, legend + 6 * FINE)
             .build_cartesian_2d(0.0..right * (1.0 + 0.5 * ROOM), low..top * (1.0 + ROOM))?;
         let doubled = |value: &f64| numbers::tick(value.exp2());
         let plain = |value: &f64| numbers::tick(*value);

@@ -3,7 +3,7 @@
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use super::{FAINT, FINE, INK, TEXT, labels};
+use super::{FAINT, FINE, INK, TEXT, framed, labels};
 use crate::report::{numbers, palette};
 
 /// Decades are too coarse for the ends of the axes: they reach this factor beyond the points.
@@ -50,14 +50,7 @@ impl Scatter {
         let costs = self.points.iter().map(|point| point.x);
         let across = span(costs.chain(self.marks.iter().map(|mark| mark.x)));
         let up = span(self.points.iter().map(|point| point.y));
-        let mut chart = ChartBuilder::on(root)
-            .margin_left(4 * FINE)
-            .margin_right(18 * FINE)
-            .margin_bottom(4 * FINE)
-            .margin_top(12 * FINE)
-            .x_label_area_size(48 * FINE)
-            .y_label_area_size(74 * FINE)
-            .build_cartesian_2d(across.log_scale(), up.clone().log_scale())?;
+        let mut chart = framed(root, 12 * FINE).build_cartesian_2d(across.log_scale(), up.clone().log_scale())?;
         chart
             .configure_mesh()
             .x_labels(6)
