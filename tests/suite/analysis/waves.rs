@@ -66,6 +66,20 @@ fn a_wave_that_comes_back_is_told_from_the_one_that_leaves() {
 }
 
 #[test]
+fn what_comes_faster_than_any_wave_is_not_taken_for_one() {
+    let setting = setting();
+    let way_back = (setting.height - 12.0) / setting.longitudinal_speed;
+    let share_of_prediction = 0.88;
+    let early = way_back - (1.0 - share_of_prediction) * setting.height / setting.longitudinal_speed;
+    let disturbed = waves(&setting, |time| if time > early { 4.0 } else { 0.0 });
+    let arrivals = analyse(&disturbed, &setting).arrivals;
+    assert!(
+        arrivals.iter().all(|arrival| arrival.measured.is_none()),
+        "{arrivals:?}"
+    );
+}
+
+#[test]
 fn a_wave_behind_something_else_is_absent() {
     let setting = setting();
     let disturbed = waves(&setting, |time| if time > 4.0 { 4.0 } else { 0.0 });
