@@ -26,9 +26,9 @@ const STRESS: [[f64; 3]; 7] = [
     [255.0, 214.0, 150.0],
 ];
 
-/// Colour of a stress between -1 (full compression) and 1 (full tension); beyond, the end colour.
-pub fn stress(share: f64) -> [u8; 3] {
-    blend(&STRESS, 0.5 + 0.5 * share.clamp(-1.0, 1.0))
+/// Colour of a stress from full compression at 0 to full tension at 1.
+pub fn stress(place: f64) -> [u8; 3] {
+    blend(&STRESS, place)
 }
 
 /// Stops of the scale of speeds, from rest: dark, so that waves shine.

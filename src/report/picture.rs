@@ -3,6 +3,8 @@
 pub mod animation;
 mod drawing;
 mod indexed;
+mod margins;
+mod scale;
 mod shade;
 
 use std::path::Path;

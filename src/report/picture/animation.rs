@@ -86,6 +86,11 @@ impl Strip {
             Ok(slab::paint(&film.mesh, &frame, spacing, self.view, &colours, self.size))
         };
         let pictures: Vec<_> = (0..film.moments().len()).into_par_iter().map(paint).collect();
-        Palette::of(Shade::Speed).encode(FILE, self.size, PICTURES_A_SECOND, &mut pictures.into_iter())
+        Palette::of(&Shade::Speed.scale(self.limit)).encode(
+            FILE,
+            self.size,
+            PICTURES_A_SECOND,
+            &mut pictures.into_iter(),
+        )
     }
 }

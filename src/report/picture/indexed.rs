@@ -2,23 +2,23 @@
 
 use std::collections::HashMap;
 
-use super::shade::Shade;
+use super::scale::Scale;
 use crate::report::ReportError;
 
 /// Colours of a scale, and greys from ink to paper.
 const SCALE: usize = 192;
 const GREYS: usize = 16;
 
-/// The colours of the pictures of one shade.
+/// The colours of the pictures of one scale.
 pub struct Palette {
     colours: Vec<[u8; 3]>,
     known: HashMap<[u8; 3], u8>,
 }
 
 impl Palette {
-    pub fn of(shade: Shade) -> Self {
+    pub fn of(scale: &Scale) -> Self {
         let place = |step: usize| step as f64 / (SCALE - 1) as f64;
-        let scale = (0..SCALE).map(|step| shade.colour(shade.low() + (1.0 - shade.low()) * place(step)));
+        let scale = (0..SCALE).map(|step| (scale.colour)(place(step)));
         let greys = (0..GREYS).map(|step| [(34 + step * 221 / (GREYS - 1)) as u8; 3]);
         Self {
             colours: scale.chain(greys).collect(),

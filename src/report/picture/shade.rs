@@ -1,5 +1,6 @@
 //! What the colour of a picture stands for.
 
+use super::scale::Scale;
 use crate::record::frames::{FieldMesh, Frame};
 use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND};
 use crate::report::{numbers, palette};
@@ -23,31 +24,26 @@ pub enum Shade {
 }
 
 impl Shade {
-    pub fn label(self) -> &'static str {
+    /// Its colours, with the end at this value.
+    pub fn scale(self, limit: f64) -> Scale {
         match self {
-            Self::Stress => "σyy (GPa)",
-            Self::Speed => "speed (m/s)",
-        }
-    }
-
-    /// Where the scale begins, as a share of its end.
-    pub fn low(self) -> f64 {
-        match self {
-            Self::Stress => -1.0,
-            Self::Speed => 0.0,
-        }
-    }
-
-    pub fn colour(self, share: f64) -> [u8; 3] {
-        match self {
-            Self::Stress => palette::stress(share),
-            Self::Speed => palette::speed(share),
+            Self::Stress => Scale {
+                label: "σyy (GPa)",
+                ends: [-limit, limit],
+                colour: palette::stress,
+            },
+            Self::Speed => Scale {
+                label: "speed (m/s)",
+                ends: [0.0, limit],
+                colour: palette::speed,
+            },
         }
     }
 
     pub fn colours(self, mesh: &FieldMesh, frame: &Frame, limit: f64) -> Vec<[u8; 3]> {
         let values = self.values(mesh, frame);
-        values.into_iter().map(|value| self.colour(value / limit)).collect()
+        let scale = self.scale(limit);
+        values.into_iter().map(|value| scale.colour_of(value)).collect()
     }
 
     /// The same where grips hold a specimen of this height (nm) between them: they do not stretch, so that the stress in
@@ -135,7 +131,7 @@ mod tests {
             ..Frame::default()
         };
         let colours = Shade::Stress.colours_between_grips(&mesh, &frame, 1.0, 14.0);
-        assert_eq!(colours, [GRIPS, palette::stress(0.0), GRIPS, GRIPS]);
+        assert_eq!(colours, [GRIPS, palette::stress(0.5), GRIPS, GRIPS]);
         let moving = Shade::Speed.colours_between_grips(&mesh, &frame, 1.0, 14.0);
         assert_eq!(moving, [palette::speed(0.0); 4]);
     }
