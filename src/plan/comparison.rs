@@ -13,6 +13,8 @@ pub struct Comparison {
     /// Its key in `compare`.
     pub name: String,
     pub file: String,
+    /// What its comment lines say; empty where there are none.
+    pub notes: String,
     /// Table of the report that has its columns.
     pub table: &'static str,
     pub values: Vec<Expected>,
@@ -151,15 +153,23 @@ pub fn read(study: &Study, drafts: &[Draft], findings: &Findings) -> Vec<Compari
             drafts,
             findings,
         };
-        let (table, values) = sheet.read(&text.ok()?)?;
+        let text = text.ok()?;
+        let (table, values) = sheet.read(&text)?;
         Some(Comparison {
             name: name.text.clone(),
             file: file.clone(),
+            notes: notes(&text),
             table: table.table,
             values,
         })
     };
     given.filter_map(comparison).collect()
+}
+
+/// The comment lines of a file as one paragraph.
+fn notes(text: &str) -> String {
+    let lines = text.lines().filter_map(|line| line.trim_start().strip_prefix('#'));
+    lines.map(str::trim).collect::<Vec<_>>().join(" ")
 }
 
 /// A file as it is read.

@@ -77,7 +77,28 @@ fn stress_intensity(cases: &[Analysed], comparisons: &[Comparison]) -> Option<St
     if !others.is_empty() {
         text.push_str(&format!(" With sign and on average are off {}.", others.join(", ")));
     }
+    text.extend(one_factor(cases, comparisons));
     Some(text)
+}
+
+/// Factors alike within this share are one factor.
+const ONE_FACTOR: f64 = 0.02;
+
+/// Whether one factor takes K near the tip to the source's value in all cases, as it does where only the definitions differ.
+fn one_factor(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    let factor = |case| Some(toughness::reference(case, comparisons)? / Definition::NearTip.value(case)?);
+    let factors: Vec<f64> = cases.iter().filter_map(factor).collect();
+    let mean = mean(&factors);
+    let is_one = factors.len() > 2 && factors.iter().all(|factor| (factor / mean - 1.0).abs() < ONE_FACTOR);
+    is_one.then(|| {
+        format!(
+            " The source's value is {} times that of the field near the tip in all {} cases, within {} %: the loads are the \
+             same, and the definitions of K differ by a factor.",
+            significant(mean, 3),
+            factors.len(),
+            significant(100.0 * ONE_FACTOR, 1)
+        )
+    })
 }
 
 fn first_branch(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {

@@ -94,6 +94,7 @@ impl Page<'_> {
         context! {
             name => &comparison.name,
             file => &comparison.file,
+            notes => &comparison.notes,
             rows => list(&lines, |line| line.cells().to_vec().into()),
         }
     }
@@ -135,7 +136,7 @@ fn group(group: &Group) -> Value {
 fn panel(panel: &Panel) -> Value {
     let heads: Vec<Value> = panel.heads().into_iter().map(Value::from).collect();
     let (title, across) = (Value::from(panel.title), panel.is_across_studies());
-    context! { title, across, heads, verdicts => panel.verdicts(), rows => list(&panel.rows(), row) }
+    context! { title, across, heads, differences => panel.differences(), rows => list(&panel.rows(), row) }
 }
 
 fn row(row: &Row) -> Value {

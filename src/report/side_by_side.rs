@@ -116,7 +116,6 @@ pub fn columns(panels: &[Panel]) -> Vec<Column> {
         rows.number("value", value),
         rows.number("difference", |row| Some(value(row)? - first(row)?)),
         rows.number("relative_difference", |row| Some(value(row)? / first(row)? - 1.0)),
-        rows.number("allowed", |row| row.0.allowed(row.2)),
-        rows.flag("agrees", |row| row.0.agrees(row.2, row.1)),
+        rows.number("asked", |row| row.0.asked(row.2)),
     ]
 }

@@ -19,6 +19,7 @@ fn with_comparisons() -> Study {
     let comparison = |name: &str, table, values| Comparison {
         name: name.to_owned(),
         file: format!("reference/{name}.csv"),
+        notes: "The source tells no time of the start.".to_owned(),
         table,
         values,
     };
@@ -66,6 +67,7 @@ fn values_from_elsewhere_stand_beside_those_of_the_cases() {
             "{file}"
         );
         assert!(page.contains("Beside values from elsewhere"), "{file}");
+        assert!(page.contains("The source tells no time of the start."), "{file}");
     }
     report::write(&three_meshes(), folder.path()).unwrap();
     assert!(

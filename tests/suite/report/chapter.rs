@@ -21,6 +21,7 @@ fn with_stages() -> Study {
     let comparison = |table: &'static str, values| Comparison {
         name: table.to_owned(),
         file: format!("reference/{table}.csv"),
+        notes: String::new(),
         table,
         values,
     };
@@ -131,4 +132,41 @@ fn the_first_branch_is_told_beside_the_source_and_the_waves_that_are_back() {
     assert!(page.contains("later than the source between 1 and 2 ps"), "{page}");
     assert!(page.contains("coarse: no branch up to the end of the run"), "{page}");
     assert!(page.contains("longitudinal from the top and bottom faces"), "{page}");
+}
+
+#[test]
+fn one_factor_between_the_source_and_the_field_near_the_tip_is_told() {
+    let mut study = three_meshes();
+    let near = |folder: &tempfile::TempDir| -> Vec<f64> {
+        let table = rows(folder, "k_ic");
+        table
+            .iter()
+            .map(|row| row["k_near_tip_mpa_sqrt_m"].parse().unwrap())
+            .collect()
+    };
+    let found = near(&written(&study));
+    let compared = |factors: [f64; 3]| {
+        let values = ["coarse", "mixed", "atoms"].iter().zip(&found).zip(factors);
+        let values = values.map(|((case, near), factor)| Expected {
+            case: (*case).to_owned(),
+            keys: Vec::new(),
+            column: "k_ic_reference_mpa_sqrt_m",
+            value: factor * near,
+        });
+        Comparison {
+            name: "k".to_owned(),
+            file: "k.csv".to_owned(),
+            notes: String::new(),
+            table: "k_ic",
+            values: values.collect(),
+        }
+    };
+    study.comparisons = vec![compared([1.34, 1.32, 1.33])];
+    let page = text(&written(&study), "report.md");
+    assert!(
+        page.contains("The source's value is 1.33 times that of the field near the tip in all 3 cases"),
+        "{page}"
+    );
+    study.comparisons = vec![compared([1.34, 1.2, 1.33])];
+    assert!(!text(&written(&study), "report.md").contains("times that of the field near the tip"));
 }

@@ -19,6 +19,7 @@ fn economies() -> Study {
     study.comparisons.push(Comparison {
         name: "LAMMPS".to_owned(),
         file: "lammps.csv".to_owned(),
+        notes: String::new(),
         table: "speed_against_error",
         values: vec![Expected {
             case: "atoms".to_owned(),

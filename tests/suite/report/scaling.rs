@@ -79,6 +79,7 @@ fn gains(growth: Growth) -> Study {
             compared: vec![Comparison {
                 name: "table-4-2".to_owned(),
                 file: "table-4-2.csv".to_owned(),
+                notes: String::new(),
                 table: "scaling",
                 values: source.to_vec(),
             }],

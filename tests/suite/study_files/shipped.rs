@@ -176,6 +176,26 @@ fn a_shipped_study_is_found_by_its_name_alone() {
 }
 
 #[test]
+fn what_a_table_says_of_itself_comes_with_its_values() {
+    let plan = plan(&study::read("models-A-E.yaml").unwrap()).unwrap();
+    let arrivals = plan
+        .comparisons
+        .iter()
+        .find(|comparison| comparison.name == "waves")
+        .unwrap();
+    assert!(
+        arrivals
+            .notes
+            .starts_with("Deng (2011), Table 5-3: when reflected waves are back")
+    );
+    assert!(
+        arrivals.notes.ends_with("none leads from the crack to the grips."),
+        "{}",
+        arrivals.notes
+    );
+}
+
+#[test]
 fn what_a_shipped_study_compares_with_is_shipped_too() {
     for shipped in &study::SHIPPED {
         let plan = plan(&study::read(shipped.name).unwrap()).unwrap();
