@@ -69,7 +69,8 @@ pub struct Specimen {
     pub length: Given<Length>,
     /// Extent across the crack (y).
     pub width: Given<Length>,
-    /// Atoms an edge of the triangles that lay out the specimen, whatever the resolution; 10 where left out.
+    /// Atoms an edge of the triangles that lay out the specimen, whatever the resolution. Where left out it is
+    /// `resolution.element`, and 10 where that is single atoms.
     pub block: Given<u32>,
     pub grips: Given<Grips>,
 }
