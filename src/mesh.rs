@@ -11,7 +11,7 @@ pub mod sites;
 mod tiling;
 
 use crate::lattice::triangular;
-use cut::Cut;
+use cut::{Crack, Cut};
 use element::Element;
 use owners::Owners;
 use region::Region;
@@ -25,8 +25,8 @@ pub struct Plan {
     pub element: u16,
     /// Regions, in nm.
     pub regions: Vec<Region>,
-    /// Length of an edge crack from the left at mid-height.
-    pub crack_length: Option<f64>,
+    /// A crack next to mid-height.
+    pub crack: Option<Crack>,
     /// Lattice rows of each grip, at the bottom and at the top.
     pub grip_rows: i32,
     /// Lattice spacing, nm.
@@ -60,21 +60,17 @@ impl Mesh {
         let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
         let owners = Owners::new(&sites, &elements, triangles);
-        let left = sites.left();
-        let cut = plan.crack_length.map(|length| Cut {
-            row: middle,
-            from: left - 1.0,
-            to: left + length,
-        });
-        Self {
+        let mut mesh = Self {
             sites,
             elements,
             triangles,
             owners,
-            cut,
+            cut: None,
             spacing: plan.spacing,
             grip_rows: plan.grip_rows,
-        }
+        };
+        mesh.cut = plan.crack.map(|crack| crack.cut(&mesh));
+        mesh
     }
 
     pub fn node_count(&self) -> usize {
@@ -212,7 +208,7 @@ mod tests {
             layout,
             element,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: layout.block,
             spacing: 0.25559,
         }

@@ -219,6 +219,24 @@ fn identity_changes_with_every_value() {
 }
 
 #[test]
+fn the_end_of_the_notch_belongs_to_the_identity_and_is_written_only_where_it_is_given() {
+    let notch = |crack: &str| base().replace("crack: {length: 56 nm}", crack);
+    let [plain, corner, middle] = [
+        "crack: {length: 56 nm}",
+        "crack: {length: 56 nm, end: corner}",
+        "crack: {length: 56 nm, end: mid-edge}",
+    ]
+    .map(|crack| planned(&notch(crack)).remove(0));
+    assert!(corner.id != plain.id && middle.id != plain.id && corner.id != middle.id);
+    assert!(!write_case(&plain).contains("end:"));
+    for (case, end) in [(&corner, "end: corner"), (&middle, "end: mid-edge")] {
+        let written = write_case(case);
+        assert!(written.contains(end), "{written}");
+        assert_eq!(only_id(&written), case.id.case);
+    }
+}
+
+#[test]
 fn a_difference_is_told_in_the_words_of_the_study() {
     let changed = base()
         .replace("4.6e6 /s", "9.2e6 /s")

@@ -2,7 +2,7 @@
 
 use super::{At, Check, about, nanometres};
 use crate::study::{
-    case::{Crack, Edge, Grips, Lattice, Specimen},
+    case::{Crack, Edge, Grips, Lattice, NotchEnd, Specimen},
     defaults, file,
     finding::{Finding, Place},
     reader::Given,
@@ -121,6 +121,12 @@ impl Check<'_> {
             Given::Wrong(_) => None,
             Given::Right(file::Edge::Left, _) => Some(Edge::Left),
         };
+        let end = match &values.end {
+            Given::Absent => Some(None),
+            Given::Wrong(_) => None,
+            Given::Right(file::NotchEnd::Corner, _) => Some(Some(NotchEnd::Corner)),
+            Given::Right(file::NotchEnd::MidEdge, _) => Some(Some(NotchEnd::MidEdge)),
+        };
         let (length, at) = self.size(&values.length, place, "crack.length")?;
         if let Some((whole, given)) = specimen.length
             && length >= whole
@@ -135,6 +141,11 @@ impl Check<'_> {
             self.add(Finding::at(at, message).with(given, "the specimen").help(help));
             return None;
         }
-        Some(Some((Crack { edge: edge?, length }, at)))
+        let crack = Crack {
+            edge: edge?,
+            length,
+            end: end?,
+        };
+        Some(Some((crack, at)))
     }
 }
