@@ -3,6 +3,7 @@
 use cgaft::forces::{Forces, Measure, Summation};
 use cgaft::loading::{Grip, Stretching};
 use cgaft::material::Material;
+use cgaft::mesh::cut::Crack;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
@@ -36,7 +37,7 @@ fn slab(element: u16) -> Mesh {
         layout,
         element,
         regions: vec![],
-        crack_length: Some(180.0),
+        crack: Some(Crack::of_length(180.0)),
         grip_rows: 10,
         spacing,
     })

@@ -182,7 +182,7 @@ mod tests {
             layout,
             element: 10,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: 10,
             spacing: 1.0,
         })

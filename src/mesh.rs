@@ -11,7 +11,7 @@ pub mod sites;
 mod tiling;
 
 use crate::lattice::triangular;
-use cut::Cut;
+use cut::{Crack, Cut};
 use element::Element;
 use owners::Owners;
 use region::Region;
@@ -25,8 +25,8 @@ pub struct Plan {
     pub element: u16,
     /// Regions, in nm.
     pub regions: Vec<Region>,
-    /// Length of an edge crack from the left at mid-height.
-    pub crack_length: Option<f64>,
+    /// A crack next to mid-height.
+    pub crack: Option<Crack>,
     /// Lattice rows of each grip, at the bottom and at the top.
     pub grip_rows: i32,
     /// Lattice spacing, nm.
@@ -60,21 +60,17 @@ impl Mesh {
         let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
         let owners = Owners::new(&sites, &elements, triangles);
-        let left = sites.left();
-        let cut = plan.crack_length.map(|length| Cut {
-            row: middle,
-            from: left - 1.0,
-            to: left + length,
-        });
-        Self {
+        let mut mesh = Self {
             sites,
             elements,
             triangles,
             owners,
-            cut,
+            cut: None,
             spacing: plan.spacing,
             grip_rows: plan.grip_rows,
-        }
+        };
+        mesh.cut = plan.crack.map(|crack| crack.cut(&mesh));
+        mesh
     }
 
     pub fn node_count(&self) -> usize {
@@ -212,7 +208,7 @@ mod tests {
             layout,
             element,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: layout.block,
             spacing: 0.25559,
         }
@@ -332,6 +328,68 @@ mod tests {
                     !mesh.elements.iter().any(astride),
                     "element {element}, boundary {boundary}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn elements_beside_the_crack_plane_are_of_the_size_asked_for() {
+        let band = |element| Region {
+            shape: Shape::Band { half_width: 6.0 },
+            element,
+        };
+        for (element, block) in (3..=20)
+            .chain([40])
+            .flat_map(|element| [4, 5, 10].map(|block| (element, block)))
+        {
+            let layout = Layout {
+                block,
+                // Room for two rows of elements on either side of the crack plane, and an odd number of blocks below it.
+                rows: 2 * (2 * i32::from(element) / block + 2) + 3,
+                triangles: 61,
+            };
+            let uniform = plan(layout, element);
+            let mixed = Plan {
+                element: 2 * element,
+                regions: vec![band(element)],
+                ..uniform.clone()
+            };
+            for plan in [uniform, mixed] {
+                let mesh = Mesh::new(&plan);
+                check_cover(&mesh);
+                let middle = mesh.sites.middle_row();
+                for row in [middle - 1, middle] {
+                    let columns = mesh.sites.columns(row);
+                    // Where a whole element has no room before the end of the row.
+                    let inner = columns.start + i32::from(element)..columns.end - i32::from(element) - 1;
+                    assert!(!inner.is_empty());
+                    for column in inner {
+                        let owner = mesh.owner_of([column, row]).unwrap();
+                        assert_eq!(
+                            mesh.elements[owner].size,
+                            i32::from(element),
+                            "block {block}, row {row}"
+                        );
+                    }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn grips_are_whole_rows_and_keep_what_is_left_over_at_their_far_end() {
+        let layout = Layout {
+            block: 10,
+            rows: 12,
+            triangles: 41,
+        };
+        let mesh = Mesh::new(&plan(layout, 4));
+        // Ten rows of atoms in a grip: two rows of elements at its inner edge, and two rows of atoms outside.
+        for row in [2, 9, 110, 117] {
+            let columns = mesh.sites.columns(row);
+            for column in columns.start + 10..columns.end - 10 {
+                let owner = mesh.owner_of([column, row]).unwrap();
+                assert_eq!(mesh.elements[owner].size, 4, "row {row}");
             }
         }
     }

@@ -21,6 +21,7 @@ use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Layers, Sponge, Stretching};
 use crate::material::{Material, WaveSpeeds};
+use crate::mesh::cut::{Crack, WantedEnd};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
@@ -128,15 +129,26 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
         layout,
         element: element(case.resolution.element)?,
         regions: case.resolution.regions.iter().map(region).collect::<Result<_, _>>()?,
-        crack_length: case.crack.as_ref().map(
-            |case::Crack {
-                 edge: case::Edge::Left,
-                 length,
-             }| length / spacing,
-        ),
+        crack: case.crack.as_ref().map(|crack| notch(crack, spacing)),
         grip_rows: specimen.block as i32,
         spacing,
     })
+}
+
+/// The crack of a case, in units of the lattice spacing.
+fn notch(crack: &case::Crack, spacing: f64) -> Crack {
+    let case::Crack {
+        edge: case::Edge::Left,
+        length,
+        end,
+    } = *crack;
+    Crack {
+        length: length / spacing,
+        end: end.map(|end| match end {
+            case::NotchEnd::Corner => WantedEnd::Corner,
+            case::NotchEnd::MidEdge => WantedEnd::MidEdge,
+        }),
+    }
 }
 
 /// The solver of a case at the start of its run.

@@ -1,5 +1,6 @@
 use super::*;
 use crate::mesh::Plan;
+use crate::mesh::cut::Crack;
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::Layout;
 use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
@@ -27,7 +28,7 @@ fn slab(cutoff: f64) -> (Forces, Planes) {
         layout,
         element: 10,
         regions: vec![band],
-        crack_length: Some(30.0),
+        crack: Some(Crack::of_length(30.0)),
         grip_rows: 10,
         spacing: material.spacing,
     });

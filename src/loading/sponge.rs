@@ -196,7 +196,7 @@ mod tests {
             },
             element: 4,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: 4,
             spacing: 1.0,
         });

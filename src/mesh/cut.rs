@@ -1,6 +1,19 @@
 //! A crack cut on purpose: bonds across it are severed for good, and its faces only push.
 
+mod ends;
+
+pub use ends::{NotchEnd, WantedEnd};
+
+use super::Mesh;
 use crate::lattice::triangular;
+
+/// A crack from the left edge as it is wanted, in units of the lattice spacing.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crack {
+    pub length: f64,
+    /// Where among the elements it is to end; `None`: at this length.
+    pub end: Option<WantedEnd>,
+}
 
 /// A straight cut between two lattice rows.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -10,6 +23,24 @@ pub struct Cut {
     /// It reaches from `from` to `to` in lattice x, in units of the lattice spacing.
     pub from: f64,
     pub to: f64,
+}
+
+impl Crack {
+    /// A crack that ends where its length says.
+    pub fn of_length(length: f64) -> Self {
+        Self { length, end: None }
+    }
+
+    /// The cut in a mesh that has none yet.
+    pub(super) fn cut(self, mesh: &Mesh) -> Cut {
+        let left = mesh.sites.left();
+        let to = left + self.length;
+        Cut {
+            row: mesh.sites.middle_row(),
+            from: left - 1.0,
+            to: self.end.map_or(to, |end| end.nearest(mesh, to)),
+        }
+    }
 }
 
 impl Cut {
@@ -24,6 +55,11 @@ impl Cut {
         let share = (height - f64::from(a[1])) / f64::from(b[1] - a[1]);
         let x = xa + share * (xb - xa);
         self.from <= x && x < self.to
+    }
+
+    /// Where it ends among the elements of its mesh.
+    pub fn end(&self, mesh: &Mesh) -> NotchEnd {
+        ends::judge(mesh, self.to)
     }
 }
 

@@ -255,6 +255,7 @@ fn facing_sites(first: &Element, second: &Element) -> [[i32; 2]; 2] {
 #[cfg(test)]
 mod tests {
     use super::super::Plan;
+    use super::super::cut::Crack;
     use super::super::sites::Layout;
     use super::*;
 
@@ -268,7 +269,7 @@ mod tests {
             layout,
             element,
             regions: vec![],
-            crack_length,
+            crack: crack_length.map(Crack::of_length),
             grip_rows: 10,
             spacing: 1.0,
         })

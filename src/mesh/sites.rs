@@ -6,8 +6,10 @@ use crate::lattice::triangular;
 
 /// How many blocks a specimen has: element rows of `block` lattice rows, an odd number of triangles in each.
 ///
-/// Even rows start with an upright triangle, odd rows with an inverted one; row r starts at lattice column
-/// -block floor(r/2), so that the specimen has straight sides and no drift.
+/// Rows start in turn with an upright triangle, and are widest at their bottom, or with an inverted one, and are widest at
+/// their top; two rows further the sides stand where they stood. Counted from the middle: the row above it starts upright,
+/// the row below inverted, so that the faces stick out where a crack through the middle meets them and have no re-entrant
+/// corner there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Layout {
     /// Sites along an edge of the triangles that lay out the set.
@@ -46,9 +48,19 @@ impl Layout {
         f64::from((self.triangles + 1) / 2 * (self.block + 1))
     }
 
+    /// Element rows below the middle.
+    pub fn rows_below(&self) -> i32 {
+        self.rows / 2
+    }
+
+    /// Whether an element row starts with an upright triangle.
+    pub fn starts_upright(&self, row: i32) -> bool {
+        (row - self.rows_below()) % 2 == 0
+    }
+
     /// Column at which the upright triangles of element row `row` are anchored.
     pub fn anchor(&self, row: i32) -> i32 {
-        -self.block * row.div_euclid(2)
+        -self.block * (row + self.rows_below() % 2).div_euclid(2)
     }
 
     /// First column and number of sites of a lattice row.
@@ -56,7 +68,7 @@ impl Layout {
         let [row, q] = [lattice_row.div_euclid(self.block), lattice_row.rem_euclid(self.block)];
         let cells = (self.triangles - 1) / 2;
         let full = cells * (self.block + 1);
-        if row % 2 == 0 {
+        if self.starts_upright(row) {
             (self.anchor(row), full + self.block - q)
         } else {
             (self.anchor(row) - (q + 1), full + q + 1)
@@ -143,7 +155,7 @@ impl SiteSet {
     /// The boundary between lattice rows at which a crack through the middle is cut: a boundary of element rows,
     /// and where their number is odd the one just below the middle.
     pub fn middle_row(&self) -> i32 {
-        self.layout.rows / 2 * self.layout.block
+        self.layout.rows_below() * self.layout.block
     }
 }
 
@@ -173,5 +185,53 @@ mod tests {
         }
         assert_eq!(sites.index([sites.columns(5).end, 5]), None);
         assert_eq!(sites.index([0, 60]), None);
+    }
+
+    /// Lattice x of both ends of a lattice row.
+    fn ends(sites: &SiteSet, row: i32) -> [f64; 2] {
+        let columns = sites.columns(row);
+        [columns.start, columns.end - 1].map(|column| triangular::position([column, row])[0])
+    }
+
+    #[test]
+    fn no_face_has_a_re_entrant_corner_on_the_crack_plane() {
+        for (rows, block) in (4..=20).flat_map(|rows| [4, 5, 10].map(|block| (rows, block))) {
+            let sites = SiteSet::new(Layout {
+                block,
+                rows,
+                triangles: 9,
+            });
+            let middle = sites.middle_row();
+            for nearest in [middle - 1, middle] {
+                let outward = if nearest < middle { -1 } else { 1 };
+                let [near, far] = [nearest, nearest + outward].map(|row| ends(&sites, row));
+                assert!(
+                    near[0] < far[0] && near[1] > far[1],
+                    "{rows} rows of {block}: the rows beside the plane reach farthest out"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn specimens_with_an_even_number_of_rows_below_the_plane_stay_what_they_were() {
+        // The first row of models A to E, of cases 1 and 2 and of the slab of the tests starts upright at column 0.
+        for rows in [160, 320, 140, 16] {
+            let layout = Layout {
+                block: 10,
+                rows,
+                triangles: 9,
+            };
+            let expected = |row: i32| {
+                if row % 2 == 0 {
+                    (-10 * (row / 2), 54)
+                } else {
+                    (-10 * (row / 2) - 1, 45)
+                }
+            };
+            for row in 0..rows {
+                assert_eq!(layout.extent(10 * row), expected(row), "{rows} rows, row {row}");
+            }
+        }
     }
 }

@@ -10,7 +10,8 @@ use super::sites::SiteSet;
 ///
 /// `target[site]` is the largest element size allowed at a site. An element that holds a site of a finer target gives
 /// all its sites to the finer one, so that the border of a region runs along elements. No element crosses a row
-/// boundary in `breaks` (ascending, from 0 to the number of rows).
+/// boundary in `breaks` (ascending, from 0 to the number of rows). Rows are laid from the crack plane outward, so that
+/// what is left over lies at the far end of the band between two breaks, towards the grips.
 pub fn tile(sites: &SiteSet, target: Vec<u16>, breaks: &[i32]) -> Vec<Element> {
     let mut tiling = Tiling {
         sites,
@@ -49,16 +50,30 @@ struct Tiling<'a> {
 }
 
 impl Tiling<'_> {
-    /// The regular pattern of one size in every band of rows between two breaks.
+    /// The regular pattern of one size in every band of rows between two breaks, from the crack plane outward. The row
+    /// nearest to it starts flush with the left face.
     fn lay_rows(&mut self, size: i32) {
         let layout = self.sites.layout;
         for band in self.breaks.windows(2) {
-            let block_row = band[0].div_euclid(layout.block);
-            let origin = layout.anchor(block_row);
+            let is_above = band[0] >= self.sites.middle_row();
+            let nearest = if is_above { band[0] } else { band[1] - 1 };
+            let block_row = nearest.div_euclid(layout.block);
+            let starts_upright = layout.starts_upright(block_row);
+            let flush = layout.anchor(block_row);
             for k in 0..(band[1] - band[0]) / size {
-                let row = band[0] + k * size;
-                let steps = (block_row + k).div_euclid(2) - block_row.div_euclid(2);
-                self.lay_row(size, row, origin - size * steps);
+                // Two rows further the sides stand where they stood, a column further each two lattice rows.
+                let steps = (k + i32::from(starts_upright != is_above)).div_euclid(2);
+                if is_above {
+                    self.lay_row(size, band[0] + k * size, flush - size * steps);
+                } else {
+                    // A row that starts inverted is flush at its top, which lies a block above its anchor.
+                    let first = if starts_upright {
+                        flush
+                    } else {
+                        flush + size - layout.block
+                    };
+                    self.lay_row(size, band[1] - (k + 1) * size, first + size * steps);
+                }
             }
         }
     }

@@ -19,7 +19,7 @@ pub struct RunId {
 }
 
 /// Raised when the same description comes to mean something else; every case then runs again.
-const CASE_FORMAT: u32 = 1;
+const CASE_FORMAT: u32 = 2;
 
 impl CaseId {
     /// How a case is carried out (ranks, threads) is no part of it: results do not depend on it.

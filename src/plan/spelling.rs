@@ -2,8 +2,8 @@
 
 use crate::{
     study::case::{
-        AtCutoff, Case, Crack, Edge, Execution, Grips, Lattice, Loading, MassMatrix, Mode, Potential, PotentialShape,
-        Ramp, Region, RegionShape, Run, SnapshotInterval, Summation, TimeStep, Until,
+        AtCutoff, Case, Crack, Edge, Execution, Grips, Lattice, Loading, MassMatrix, Mode, NotchEnd, Potential,
+        PotentialShape, Ramp, Region, RegionShape, Run, SnapshotInterval, Summation, TimeStep, Until,
     },
     units::{self, Dimension},
 };
@@ -43,12 +43,8 @@ pub fn spelled(case: &Case) -> Value {
         "resolution": { "element": resolution.element, "regions": regions },
     });
     // The order of a study file: the crack stands between its specimen and its load.
-    if let Some(Crack {
-        edge: Edge::Left,
-        length: extent,
-    }) = crack
-    {
-        whole["crack"] = json!({ "edge": "left", "length": length(*extent) });
+    if let Some(crack) = crack {
+        whole["crack"] = notch(crack);
     }
     whole["loading"] = load(loading);
     whole["run"] = running(run);
@@ -126,6 +122,22 @@ fn region(region: &Region) -> Value {
             json!({ "disc": { "center": center.map(length), "radius": length(radius), "element": element } })
         }
     }
+}
+
+fn notch(crack: &Crack) -> Value {
+    let Crack {
+        edge: Edge::Left,
+        length: extent,
+        end,
+    } = *crack;
+    let mut spelled = json!({ "edge": "left", "length": length(extent) });
+    if let Some(end) = end {
+        spelled["end"] = match end {
+            NotchEnd::Corner => "corner".into(),
+            NotchEnd::MidEdge => "mid-edge".into(),
+        };
+    }
+    spelled
 }
 
 fn load(loading: &Loading) -> Value {

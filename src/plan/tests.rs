@@ -133,7 +133,7 @@ fn a_swept_choice_is_named_by_its_kind() {
 fn the_identity_of_a_known_case_stays() {
     // Said and not left to its default, which may change without a change of format.
     let text = base().replace("run: {", "run: {time-step: {fraction: 0.8}, ");
-    assert_eq!(only_id(&text).to_string(), "2610edbe406f199f");
+    assert_eq!(only_id(&text).to_string(), "e464a427b54cc196");
 }
 
 #[test]
@@ -215,6 +215,24 @@ fn identity_changes_with_every_value() {
     ] {
         assert!(base().contains(old));
         assert_ne!(only_id(&base().replace(old, new)), id, "{new}");
+    }
+}
+
+#[test]
+fn the_end_of_the_notch_belongs_to_the_identity_and_is_written_only_where_it_is_given() {
+    let notch = |crack: &str| base().replace("crack: {length: 56 nm}", crack);
+    let [plain, corner, middle] = [
+        "crack: {length: 56 nm}",
+        "crack: {length: 56 nm, end: corner}",
+        "crack: {length: 56 nm, end: mid-edge}",
+    ]
+    .map(|crack| planned(&notch(crack)).remove(0));
+    assert!(corner.id != plain.id && middle.id != plain.id && corner.id != middle.id);
+    assert!(!write_case(&plain).contains("end:"));
+    for (case, end) in [(&corner, "end: corner"), (&middle, "end: mid-edge")] {
+        let written = write_case(case);
+        assert!(written.contains(end), "{written}");
+        assert_eq!(only_id(&written), case.id.case);
     }
 }
 

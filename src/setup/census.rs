@@ -138,7 +138,7 @@ mod tests {
             layout,
             element: 10,
             regions: vec![band],
-            crack_length: None,
+            crack: None,
             grip_rows: 10,
             spacing: 0.25,
         };

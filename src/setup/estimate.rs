@@ -91,10 +91,7 @@ impl Estimator {
     }
 
     fn census(&mut self, plan: Plan) -> Census {
-        let plan = Plan {
-            crack_length: None,
-            ..plan
-        };
+        let plan = Plan { crack: None, ..plan };
         match self.meshes.iter().find(|(known, _)| *known == plan) {
             Some((_, census)) => census.clone(),
             None => {
@@ -202,7 +199,7 @@ fn stability_limit_of(size: i32, material: &Material, settings: &Settings) -> Re
         layout,
         element: size as u16,
         regions: vec![],
-        crack_length: None,
+        crack: None,
         grip_rows: block,
         spacing: material.spacing,
     };
@@ -251,7 +248,7 @@ mod tests {
             },
             element: 10,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: 10,
             spacing: 0.25,
         };

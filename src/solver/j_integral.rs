@@ -144,7 +144,7 @@ mod tests {
                 layout,
                 element,
                 regions: vec![],
-                crack_length: None,
+                crack: None,
                 grip_rows: 10,
                 spacing: material.spacing,
             });

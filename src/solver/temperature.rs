@@ -112,7 +112,7 @@ mod tests {
             layout,
             element: 1,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: 10,
             spacing: 1.0,
         };

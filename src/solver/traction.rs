@@ -143,7 +143,7 @@ mod tests {
                 shape: Shape::Band { half_width: 3.0 },
                 element: 1,
             }],
-            crack_length: None,
+            crack: None,
             grip_rows: 5,
             spacing: material.spacing,
         });

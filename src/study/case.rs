@@ -119,6 +119,17 @@ pub struct Crack {
     pub edge: Edge,
     /// nm
     pub length: f64,
+    /// Where the notch ends among the elements along the crack plane; `None`: as long as given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub end: Option<NotchEnd>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub enum NotchEnd {
+    /// The nearest corner of elements.
+    Corner,
+    /// The nearest middle of an element's edge.
+    MidEdge,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

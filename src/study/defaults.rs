@@ -4,7 +4,7 @@ use super::case::{AtCutoff, Edge, Grips, Lattice, MassMatrix, Mode, Ramp, Summat
 
 pub const AT_CUTOFF: AtCutoff = AtCutoff::Truncated;
 pub const LATTICE: Lattice = Lattice::Triangular;
-/// The 55-atom triangle of the source's 2D models.
+/// Where the elements are single atoms: the 55-atom triangle of the source's 2D models.
 pub const BLOCK: u32 = 10;
 pub const GRIPS: Grips = Grips::Clamped;
 pub const EDGE: Edge = Edge::Left;

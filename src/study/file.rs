@@ -69,7 +69,8 @@ pub struct Specimen {
     pub length: Given<Length>,
     /// Extent across the crack (y).
     pub width: Given<Length>,
-    /// Atoms an edge of the triangles that lay out the specimen, whatever the resolution; 10 where left out.
+    /// Atoms an edge of the triangles that lay out the specimen, whatever the resolution. Where left out it is
+    /// `resolution.element`, and 10 where that is single atoms.
     pub block: Given<u32>,
     pub grips: Given<Grips>,
 }
@@ -144,6 +145,18 @@ pub struct Crack {
     /// The edge at which the crack begins.
     pub edge: Given<Edge>,
     pub length: Given<Length>,
+    /// Where the notch ends among the elements along the crack plane; as long as given where left out. Atoms have neither
+    /// corners nor edges: there it is as long as given.
+    pub end: Given<NotchEnd>,
+}
+
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum NotchEnd {
+    /// At the corner of elements that is nearest to the length given: six of them meet there.
+    Corner,
+    /// In the middle of an edge of an element, the nearest to the length given.
+    MidEdge,
 }
 
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]

@@ -48,7 +48,7 @@ field_by_field! {
     Smooth { from to }
     Specimen { lattice length width block grips }
     Resolution { element regions }
-    Crack { edge length }
+    Crack { edge length end }
     StrainRate { mode rate ramp sponge damping }
     Run { until time_step summation mass relax ranks threads checkpoint_every }
     Relax { strain }
@@ -66,7 +66,7 @@ macro_rules! replaced {
     )*};
 }
 
-replaced! { u32 Lattice Grips Edge Mode Ramp TimeStep Summation MassMatrix Vec<Given<Region>> Vec<Given<Observe>> }
+replaced! { u32 Lattice Grips Edge NotchEnd Mode Ramp TimeStep Summation MassMatrix Vec<Given<Region>> Vec<Given<Observe>> }
 
 impl<K: Copy> Overlay for Quantity<K> {
     fn overlay(&mut self, over: &Self) {

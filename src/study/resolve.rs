@@ -49,7 +49,11 @@ pub fn resolve(case: &Given<CaseFile>, name: &str, findings: &Findings) -> Optio
     let (case, place) = check.section(case, Place::default())?;
     let tables = tables(&case.observe);
     let (material, spacing) = check.material(&case.material, place);
-    let specimen = check.specimen(&case.specimen, place, spacing);
+    let element = case
+        .resolution
+        .right()
+        .and_then(|values| values.element.right().copied());
+    let specimen = check.specimen(&case.specimen, place, spacing, element);
     let resolution = check.resolution(&case.resolution, place, &specimen);
     let crack = check.crack(&case.crack, &specimen);
     let loading = check.loading(&case.loading, place, &specimen);

@@ -248,7 +248,7 @@ fn two_ranks_hear_of_a_row_of_triangles_and_an_inner_one_of_a_row_on_either_side
         },
         element: 10,
         regions: vec![],
-        crack_length: None,
+        crack: None,
         grip_rows: 10,
         spacing: material.spacing,
     });

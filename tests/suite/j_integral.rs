@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use cgaft::lattice::triangular::SITE_AREA;
 use cgaft::material::{Elasticity, Material};
+use cgaft::mesh::cut::Crack;
 use cgaft::mesh::region::{Region, Shape};
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
@@ -43,7 +44,7 @@ fn meshes(material: &Material, crack_length: Option<f64>) -> Vec<(&'static str, 
             },
             element,
             regions,
-            crack_length,
+            crack: crack_length.map(Crack::of_length),
             grip_rows: 10,
             spacing: material.spacing,
         })

@@ -279,7 +279,7 @@ fn slab_of_whole_triangles(block: u16, element: u16, spacing: f64) -> Mesh {
         layout,
         element,
         regions: vec![],
-        crack_length: None,
+        crack: None,
         grip_rows,
         spacing,
     })

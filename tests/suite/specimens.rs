@@ -2,6 +2,7 @@
 
 use cgaft::forces::Planes;
 use cgaft::material::Material;
+use cgaft::mesh::cut::Crack;
 use cgaft::mesh::region::{Region, Shape};
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
@@ -77,7 +78,7 @@ pub fn slab(element: u16, regions: Vec<Region>, spacing: f64) -> Mesh {
         layout,
         element,
         regions,
-        crack_length: Some(15.0),
+        crack: Some(Crack::of_length(15.0)),
         grip_rows: 10,
         spacing,
     })

@@ -36,7 +36,7 @@ fn block_mesh(block: i32, rows: i32, triangles: i32, element: u16, spacing: f64)
         layout: Layout { block, rows, triangles },
         element,
         regions: vec![],
-        crack_length: None,
+        crack: None,
         grip_rows: block,
         spacing,
     })

@@ -126,6 +126,7 @@ fn groups(cut: &Cut, tips: &BTreeSet<[i32; 2]>, below: bool) -> Vec<Vec<[i32; 2]
 mod tests {
     use super::*;
     use crate::mesh::Plan;
+    use crate::mesh::cut::Crack;
     use crate::mesh::sites::Layout;
 
     fn mesh(crack_length: Option<f64>) -> Mesh {
@@ -138,7 +139,7 @@ mod tests {
             layout,
             element: 1,
             regions: vec![],
-            crack_length,
+            crack: crack_length.map(Crack::of_length),
             grip_rows: 6,
             spacing: 1.0,
         })

@@ -2,7 +2,7 @@
 
 use super::{At, Check, about, nanometres};
 use crate::study::{
-    case::{Crack, Edge, Grips, Lattice, Specimen},
+    case::{Crack, Edge, Grips, Lattice, NotchEnd, Specimen},
     defaults, file,
     finding::{Finding, Place},
     reader::Given,
@@ -19,8 +19,14 @@ pub struct SpecimenAt {
 const FEWEST_ROWS: u32 = 4;
 
 impl Check<'_> {
-    /// `spacing` is the distance at which two atoms rest, nm.
-    pub fn specimen(&self, given: &Given<file::Specimen>, case: Place, spacing: Option<f64>) -> SpecimenAt {
+    /// `spacing` is the distance at which two atoms rest, nm; `element` the size of the elements outside the regions.
+    pub fn specimen(
+        &self,
+        given: &Given<file::Specimen>,
+        case: Place,
+        spacing: Option<f64>,
+        element: Option<u32>,
+    ) -> SpecimenAt {
         let Some((values, place)) = self.section(given, case) else {
             return SpecimenAt {
                 specimen: None,
@@ -39,7 +45,7 @@ impl Check<'_> {
             Given::Right(file::Grips::Clamped, _) => Some(Grips::Clamped),
             Given::Right(file::Grips::Sliding, _) => Some(Grips::Sliding),
         };
-        let block = self.block(&values.block);
+        let block = self.block(&values.block, element);
         let length = self.size(&values.length, place, "specimen.length");
         let width = self.size(&values.width, place, "specimen.width");
         if let (Some(block), Some(spacing)) = (block, spacing) {
@@ -60,13 +66,17 @@ impl Check<'_> {
         }
     }
 
-    fn block(&self, given: &Given<u32>) -> Option<u32> {
+    /// As large as the elements where nothing is said, so that they leave nothing over.
+    fn block(&self, given: &Given<u32>, element: Option<u32>) -> Option<u32> {
         if let Given::Right(block @ 0..3, place) = given {
             let message = format!("`specimen.block` must be at least 3 atoms an edge, and {block} is not");
-            self.add(Finding::at(*place, message).help(format!("leave it out for the usual {}", defaults::BLOCK)));
+            self.add(Finding::at(*place, message).help("leave it out for that of the elements"));
             return None;
         }
-        self.choice(given, defaults::BLOCK)
+        self.choice(
+            given,
+            element.filter(|&element| element >= 3).unwrap_or(defaults::BLOCK),
+        )
     }
 
     /// The rows and columns of the lattice that fit, by the rule that `mesh` rounds with. A longer cutoff brings the
@@ -83,7 +93,7 @@ impl Check<'_> {
                 about(row)
             );
             let least = about(f64::from(FEWEST_ROWS) * row);
-            let help = format!("make it {least} or more, or take a smaller `specimen.block`");
+            let help = format!("make it {least} or more, or take smaller elements or a smaller `specimen.block`");
             self.add(Finding::at(place, message).help(help));
         }
         let shortest = f64::from(block + 1) * spacing;
@@ -111,6 +121,12 @@ impl Check<'_> {
             Given::Wrong(_) => None,
             Given::Right(file::Edge::Left, _) => Some(Edge::Left),
         };
+        let end = match &values.end {
+            Given::Absent => Some(None),
+            Given::Wrong(_) => None,
+            Given::Right(file::NotchEnd::Corner, _) => Some(Some(NotchEnd::Corner)),
+            Given::Right(file::NotchEnd::MidEdge, _) => Some(Some(NotchEnd::MidEdge)),
+        };
         let (length, at) = self.size(&values.length, place, "crack.length")?;
         if let Some((whole, given)) = specimen.length
             && length >= whole
@@ -125,6 +141,11 @@ impl Check<'_> {
             self.add(Finding::at(at, message).with(given, "the specimen").help(help));
             return None;
         }
-        Some(Some((Crack { edge: edge?, length }, at)))
+        let crack = Crack {
+            edge: edge?,
+            length,
+            end: end?,
+        };
+        Some(Some((crack, at)))
     }
 }

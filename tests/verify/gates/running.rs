@@ -3,6 +3,8 @@
 use cgaft::analysis::history::history;
 use cgaft::analysis::initiation::initiation;
 use cgaft::analysis::speed::{speeds, window};
+use cgaft::mesh::cut::Crack;
+use cgaft::mesh::cut::Crack;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::solver::Until;
@@ -23,7 +25,7 @@ fn a_crack_in_mode_i_runs_slower_than_surface_waves() {
         layout,
         element: 1,
         regions: vec![],
-        crack_length: Some(100.0),
+        crack: Some(Crack::of_length(100.0)),
         grip_rows: 10,
         spacing: smooth().spacing,
     });

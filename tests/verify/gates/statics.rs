@@ -49,7 +49,7 @@ impl Specimen {
             layout: shape.layout,
             element: shape.element,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: shape.grip_rows,
             spacing: material.spacing,
         });
