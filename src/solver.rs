@@ -1,5 +1,6 @@
 //! The run of one specimen in time: the loop, its observers, and when it stops.
 
+mod bins;
 pub mod checkpoint;
 mod cost;
 mod error;

@@ -1,5 +1,6 @@
 //! What a probe reads off a moment.
 
+use super::bins::Bins;
 use crate::analysis::series::{BondEvent, Setting};
 use crate::domain::Domain;
 use crate::forces::Measure;
@@ -72,22 +73,34 @@ pub fn bond_events(before: &[[i32; 3]], now: &[[i32; 3]], probe: u32) -> Vec<Bon
         .collect()
 }
 
+/// An element in a bin.
+#[derive(Clone, Debug, PartialEq)]
+struct Member {
+    bin: u32,
+    element: u32,
+    sites: u32,
+    /// How much of the element counts in the bin.
+    share: f64,
+}
+
 /// Bins along the crack plane and the elements that fall into each.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ProfileLine {
+    bins: Bins,
     centres: Vec<f64>,
-    /// Bin, element and number of its sites.
-    members: Vec<(u32, u32, u32)>,
+    members: Vec<Member>,
 }
 
 impl ProfileLine {
     /// Bins of half an element's edge and no less than two spacings, of the elements next to the crack plane: one
     /// element row on either side, and two rows of atoms.
+    ///
+    /// The stress of a triangle is one value, of its centre, and counts in the bin of that with all its sites; an atom stands
+    /// for one spacing along its row, and counts in every bin with its share of that.
     pub fn new(mesh: &Mesh, setting: &Setting) -> Self {
         let size = f64::from(setting.element_at_crack);
         let wanted = (0.5 * (size + 1.0)).max(2.0) * setting.spacing;
-        let bins = (setting.length / wanted).floor().max(1.0) as usize;
-        let width = setting.length / bins as f64;
+        let bins = Bins::no_narrower_than(wanted, setting.length);
         let middle = mesh.sites.middle_row();
         let reach = (setting.element_at_crack as i32).max(2);
         let mut members = Vec::new();
@@ -96,12 +109,22 @@ impl ProfileLine {
             if rows.start < middle - reach || rows.end > middle + reach {
                 continue;
             }
-            let x = element.centre()[0] * mesh.spacing;
-            let bin = ((x - setting.left_x) / width) as usize;
-            members.push((bin.min(bins - 1) as u32, number as u32, element.site_count() as u32));
+            let x = element.centre()[0] * mesh.spacing - setting.left_x;
+            let length = if element.size == 1 { mesh.spacing } else { 0.0 };
+            let shares = bins.spread(x, length).into_iter().filter(|&(_, share)| share > 0.0);
+            members.extend(shares.map(|(bin, share)| Member {
+                bin,
+                element: number as u32,
+                sites: element.site_count() as u32,
+                share,
+            }));
         }
-        let centres = (0..bins).map(|bin| (bin as f64 + 0.5) * width).collect();
-        Self { centres, members }
+        let centres = bins.centres();
+        Self { bins, centres, members }
+    }
+
+    pub fn bins(&self) -> &Bins {
+        &self.bins
     }
 
     pub fn centres(&self) -> &[f64] {
@@ -110,17 +133,17 @@ impl ProfileLine {
 
     /// Elements in the bins.
     pub fn elements(&self) -> impl Iterator<Item = u32> {
-        self.members.iter().map(|&(_, element, _)| element)
+        self.members.iter().map(|member| member.element)
     }
 
     /// Average virial stress in every bin, eV/nm^3; not a number where a bin holds no element.
     pub fn stress(&self, measure: &Measure, setting: &Setting) -> Vec<[f64; 3]> {
         let mut sums = vec![([0.0; 3], 0.0); self.centres.len()];
-        for &(bin, element, sites) in &self.members {
-            let (sum, count) = &mut sums[bin as usize];
-            *count += f64::from(sites);
-            let virial = measure.virial(element as usize);
-            (0..3).for_each(|k| sum[k] += virial[k]);
+        for member in &self.members {
+            let (sum, count) = &mut sums[member.bin as usize];
+            *count += member.share * f64::from(member.sites);
+            let virial = measure.virial(member.element as usize);
+            (0..3).for_each(|k| sum[k] += member.share * virial[k]);
         }
         let volume = site_volume(setting);
         sums.into_iter()

@@ -10,7 +10,8 @@ use crate::state::State;
 /// Reference bonds this much longer than the cutoff (in spacings) may come within it while the lattice is strained.
 const BEYOND_CUTOFF: f64 = 0.3;
 
-/// The reference bonds across the crack plane by the bins of the profile. Pairs that come together where the lattice has
+/// The reference bonds across the crack plane by the bins of the profile. Bonds of one kind cross it a spacing apart, so each
+/// stands for a spacing of its length, and counts in every bin with its share of that. Pairs that come together where the lattice has
 /// slipped are not among them, so it holds where the lattice is whole: ahead of the tip.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Traction {
@@ -22,7 +23,8 @@ pub struct Traction {
 
 #[derive(Clone, Debug, PartialEq)]
 struct Bond {
-    bin: u32,
+    /// Bins, and the share of the bond in each.
+    bins: [(u32, f64); 2],
     below: Site,
     above: Site,
 }
@@ -36,8 +38,7 @@ struct Site {
 
 impl Traction {
     pub fn new(mesh: &Mesh, material: &Material, profile: &ProfileLine, setting: &Setting) -> Self {
-        let bins = profile.centres().len();
-        let width = setting.length / bins as f64;
+        let bins = profile.bins();
         let middle = mesh.sites.middle_row();
         let plane = f64::from(middle) - 0.5;
         let reach = material.interaction.cutoff() / material.spacing + BEYOND_CUTOFF;
@@ -58,14 +59,14 @@ impl Traction {
                     }
                     let [left, right] = [from, to].map(|site| mesh.reference(site)[0]);
                     let x = left + share * (right - left) - setting.left_x;
-                    let bin = ((x / width).max(0.0) as usize).min(bins - 1) as u32;
-                    bonds.push(Bond { bin, below, above });
+                    let bins = bins.spread(x, mesh.spacing);
+                    bonds.push(Bond { bins, below, above });
                 }
             }
         }
         Self {
-            bins,
-            area: width * setting.thickness,
+            bins: bins.count,
+            area: bins.width * setting.thickness,
             bonds,
         }
     }
@@ -83,8 +84,9 @@ impl Traction {
             let vector = [0, 1].map(|axis| bond.above.place(state, axis) - bond.below.place(state, axis));
             let squared = vector[0] * vector[0] + vector[1] * vector[1];
             let slope = material.interaction.evaluate(squared).slope;
-            let sum = &mut sums[bond.bin as usize];
-            (0..2).for_each(|axis| sum[axis] += slope * vector[axis]);
+            for (bin, share) in bond.bins {
+                (0..2).for_each(|axis| sums[bin as usize][axis] += share * slope * vector[axis]);
+            }
         }
         sums.into_iter().map(|sum| sum.map(|force| force / self.area)).collect()
     }
@@ -123,62 +125,84 @@ mod tests {
     /// Rounding of sums of some hundred bonds.
     const ROUNDING: f64 = 1e-9;
 
-    /// A stretched specimen of elements with atoms along its middle, and its stress where it is even.
-    fn stretched(cutoff: f64, strain: f64) -> ([f64; 2], Vec<[f64; 2]>, Vec<f64>) {
+    /// Elements an edge, and the half width of a band of atoms along the middle.
+    const MESHES: [(u16, Option<f64>); 4] = [(1, None), (5, None), (5, Some(3.0)), (3, None)];
+    const STRAIN: f64 = 0.01;
+
+    fn material(cutoff: f64) -> Material {
         let law = LennardJones {
             epsilon: 1.0,
             sigma: 1.0,
         };
         let at_cutoff = AtCutoff::Smooth { from: 0.9 * cutoff };
         let law = CutPotential::new(law, cutoff, at_cutoff);
-        let material = Material::new(Interaction::LennardJones(law), 1.0).unwrap();
-        let mesh = Mesh::new(&Plan {
+        Material::new(Interaction::LennardJones(law), 1.0).unwrap()
+    }
+
+    fn mesh(element: u16, band: Option<f64>, triangles: i32, spacing: f64) -> Mesh {
+        let atoms = |half_width| Region {
+            shape: Shape::Band { half_width },
+            element: 1,
+        };
+        Mesh::new(&Plan {
             layout: Layout {
                 block: 5,
                 rows: 12,
-                triangles: 21,
+                triangles,
             },
-            element: 5,
-            regions: vec![Region {
-                shape: Shape::Band { half_width: 3.0 },
-                element: 1,
-            }],
+            element,
+            regions: band.map(atoms).into_iter().collect(),
             crack: None,
             grip_rows: 5,
-            spacing: material.spacing,
-        });
+            spacing,
+        })
+    }
+
+    /// Stress and traction of an evenly stretched specimen in the bins in its middle, where no side is felt.
+    fn stretched(mesh: Mesh, material: Material) -> Vec<([f64; 3], [f64; 2])> {
         let loading = crate::loading::Stretching::new(&mesh, 1e-3, crate::loading::Grip::Clamped, false);
         let setting = setting(&mesh, &material, &loading, 1.0);
         let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
-        state.position[1].iter_mut().for_each(|y| *y *= 1.0 + strain);
+        state.position[1].iter_mut().for_each(|y| *y *= 1.0 + STRAIN);
         let profile = ProfileLine::new(&mesh, &setting);
         let traction = Traction::new(&mesh, &material, &profile, &setting);
         let found = traction.read(&material, &state);
-        let centres = profile.centres().to_vec();
         let mut forces = Forces::new(mesh, material);
         let measure = forces.measure(&state.position).unwrap();
-        let stress = profile.stress(&measure, &setting);
-        let middle = stress.len() / 2;
-        ([stress[middle][2], stress[middle][1]], found, centres)
+        let both = profile.stress(&measure, &setting).into_iter().zip(found);
+        let inside = profile
+            .centres()
+            .iter()
+            .map(|x| (0.2..0.8).contains(&(x / setting.length)));
+        both.zip(inside)
+            .filter(|(_, inside)| *inside)
+            .map(|(bin, _)| bin)
+            .collect()
     }
 
     #[test]
-    fn the_traction_of_even_stretching_is_its_stress_whatever_carries_the_sites() {
+    fn the_traction_of_even_stretching_is_its_stress_in_every_bin_whatever_carries_the_sites() {
         for cutoff in [1.6, 2.5] {
-            let strain = 0.01;
-            let ([shear, stress], traction, centres) = stretched(cutoff, strain);
-            let inside = |x: &f64| (0.3..0.7).contains(&(x / centres[centres.len() - 1]));
-            let even = traction.iter().zip(&centres).filter(|(_, x)| inside(x));
-            // Bins do not hold equally many bonds: their mean does.
-            let [sum, count] = even.fold([0.0, 0.0], |[sum, count], (t, _)| [sum + t[1], count + 1.0]);
-            assert!(shear.abs() < ROUNDING);
-            // The virial over the reference area weighs bonds as they are stretched, the traction as they were.
-            let expected = stress / (1.0 + strain);
-            assert!(
-                (sum / count / expected - 1.0).abs() < 0.02,
-                "{} {expected}",
-                sum / count
-            );
+            let material = material(cutoff);
+            for (element, band) in MESHES {
+                // Lengths on which bins of two spacings and more fall differently.
+                for triangles in [21, 23, 25, 27] {
+                    let bins = stretched(mesh(element, band, triangles, material.spacing), material);
+                    assert!(bins.len() > 8);
+                    let expected = bins[0].0[1];
+                    for ([_, stress, shear], traction) in bins {
+                        let label = format!("cutoff {cutoff}, element {element}, {band:?}, {triangles}");
+                        assert!(shear.abs() < ROUNDING && traction[0].abs() < ROUNDING, "{label}");
+                        assert!(
+                            (stress / expected - 1.0).abs() < ROUNDING,
+                            "{label}: {stress} {expected}"
+                        );
+                        // The virial over the reference area weighs bonds as they are stretched, the traction as they were.
+                        let error = traction[1] * (1.0 + STRAIN) / expected - 1.0;
+                        assert!(error.abs() < ROUNDING, "{label}: {error:e}");
+                    }
+                }
+            }
         }
     }
 }
