@@ -4,6 +4,7 @@ mod agreement;
 mod ahead;
 mod branching;
 mod chart;
+mod events;
 mod expected;
 mod figures;
 mod film;

@@ -206,6 +206,7 @@ fn settings(case: &Case, rate: f64) -> solver::Settings {
             crack_length: case.run.until.crack_length,
             arrest: case.run.until.arrest,
             after_branch: case.run.until.after_branch,
+            leaves_plane: case.run.until.leaves_the_plane,
         },
         probe_every: case.probes.every,
         snapshot_every: case.snapshots.every.map(|interval| match interval {

@@ -313,7 +313,7 @@ impl Solver {
         let broken = self.forces.broken_bonds(&self.state.position);
         tracker.follow(&probe::bond_events(&[], &broken, 0));
         let [notch, tip] = [self.setting.crack_length, tracker.tip().x];
-        if tip - notch > initiation::threshold(&self.setting) {
+        if tip - notch > initiation::far(&self.setting) {
             let strain = self.strain();
             return Err(SolverError::RanWhileResting { notch, tip, strain });
         }

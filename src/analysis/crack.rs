@@ -7,6 +7,8 @@
 //! the notch are not reached and so do not count.
 
 pub mod branches;
+pub mod joins;
+pub mod leaving;
 mod notch;
 pub mod plaquette;
 mod ways;
@@ -62,6 +64,8 @@ pub struct Tracker {
     index: PlaquetteMap<usize>,
     /// Reached plaquettes, foremost on top; entries that are no longer reached are dropped when they surface.
     foremost: BinaryHeap<Rank>,
+    /// The first cell that was reached far from the crack plane.
+    departed: Option<usize>,
 }
 
 /// Foremost is the largest x; then the nearest to the crack plane.
@@ -101,6 +105,7 @@ impl Tracker {
             cells,
             index,
             foremost: BinaryHeap::new(),
+            departed: None,
         };
         tracker.cell(mouth);
         tracker.reach(MOUTH, 0);
@@ -170,6 +175,16 @@ impl Tracker {
             y: last[1],
             arc_length: first[0] + chords.sum::<f64>(),
         }
+    }
+
+    /// Middle of the bond of an event, nm from the left edge and from the crack plane.
+    pub fn place(&self, event: &BondEvent) -> [f64; 2] {
+        self.notch.place(Bond::of(event))
+    }
+
+    /// Whether the bond of an event was severed before anything broke.
+    pub fn is_cut(&self, event: &BondEvent) -> bool {
+        self.notch.is_cut(Bond::of(event))
     }
 
     /// Broken bonds from the mouth to this one; `None` where it is no part of the crack.

@@ -1,9 +1,10 @@
-//! The crack through time: its tip at every probe and its branches at the end.
+//! The crack through time: its tip at every probe, what happens to it, and its branches at the end.
 
 use super::crack::branches;
 use super::crack::{Tip, Tracker, spur};
+use super::damage::{Band, front};
 use super::initiation::ARREST_SPEED;
-use super::series::{Series, Setting};
+use super::series::{Probe, Series, Setting};
 
 /// A crack from its start to the end of the run.
 #[derive(Clone, Debug, Default)]
@@ -12,6 +13,10 @@ pub struct History {
     pub tips: Vec<Tip>,
     /// The main crack, then its branches.
     pub branches: Vec<Branch>,
+    pub first_bond: Option<FirstBond>,
+    pub joins: Vec<Join>,
+    pub leaves_plane: Option<LeavesPlane>,
+    pub parted_elsewhere: Option<PartedElsewhere>,
 }
 
 /// An arm of the crack at the end of the run.
@@ -29,27 +34,133 @@ pub struct Branch {
     /// Degrees from the x axis, counterclockwise.
     pub angle: f64,
     pub arrested: bool,
+    /// It forked off when the crack joined one ahead of it: what was left of the old tip, and no branch.
+    pub joined: bool,
+}
+
+/// The first bond of the crack ahead of the notch breaks.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstBond {
+    /// ps
+    pub time: f64,
+    pub strain: f64,
+}
+
+/// The crack joins one that had opened ahead of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Join {
+    pub probe: usize,
+    /// ps
+    pub time: f64,
+    pub strain: f64,
+    /// The tip at the probe before, and at this one.
+    pub from: Tip,
+    pub to: Tip,
+    /// What parted the two, nm.
+    pub gap: f64,
+}
+
+/// A path of the crack is first so far from the crack plane that it has left it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LeavesPlane {
+    pub probe: usize,
+    /// ps
+    pub time: f64,
+    pub strain: f64,
+    /// The end of the path, nm from the left edge and from the crack plane.
+    pub x: f64,
+    pub y: f64,
+    /// When the first bond of that path off the plane broke, ps.
+    pub first_off_time: f64,
+}
+
+/// The specimen parts along a band that is no part of the crack.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PartedElsewhere {
+    /// ps
+    pub time: f64,
+    pub strain: f64,
+    /// Mean distance of the band from the crack plane, nm, with its sign.
+    pub y: f64,
 }
 
 /// Follows the crack through the bond events; `None` where the specimen has no crack.
 pub fn history(series: &Series, setting: &Setting) -> Option<History> {
     let mut tracker = Tracker::new(setting)?;
-    let mut tips: Vec<Tip> = Vec::with_capacity(series.probes.len());
+    let mut band = Band::new(setting);
+    let mut found = History::default();
+    let mut farthest = front(&tracker, &[], setting);
+    let mut grown = 0;
+    let notch = tracker.tip();
     let mut events = series.bonds.as_slice();
-    for probe in 0..series.probes.len() as u32 {
-        let (now, later) = events.split_at(events.partition_point(|event| event.probe <= probe));
+    for (probe, row) in series.probes.iter().enumerate() {
+        let number = probe as u32;
+        let (now, later) = events.split_at(events.partition_point(|event| event.probe <= number));
         events = later;
+        if let Some(&last) = found.tips.last().filter(|_| now.is_empty()) {
+            found.tips.push(last);
+            continue;
+        }
         tracker.follow(now);
-        let unchanged = tips.last().copied().filter(|_| now.is_empty());
-        tips.push(unchanged.unwrap_or_else(|| tracker.tip()));
+        let tip = tracker.tip();
+        let earlier = found.tips.last().copied().unwrap_or(notch);
+        found.tips.push(tip);
+        if found.first_bond.is_none() && tip.arc_length > notch.arc_length {
+            found.first_bond = Some(FirstBond {
+                time: row.time,
+                strain: row.strain,
+            });
+        }
+        found.joins.extend(join(&tracker, probe, row, [earlier, tip], setting));
+        if found.leaves_plane.is_none() && tracker.has_left_plane() {
+            found.leaves_plane = leaves_plane(&tracker, probe, row, series);
+        }
+        if found.parted_elsewhere.is_none() {
+            let parts = band.follow(&tracker, now);
+            found.parted_elsewhere = parts.map(|y| PartedElsewhere {
+                time: row.time,
+                strain: row.strain,
+                y,
+            });
+        }
+        let reached = front(&tracker, now, setting);
+        if reached > farthest {
+            (farthest, grown) = (reached, number);
+        }
     }
-    Some(History {
-        branches: branches(&tracker, series, setting),
-        tips,
+    found.branches = branches(&tracker, &found.joins, grown, series, setting);
+    Some(found)
+}
+
+fn join(tracker: &Tracker, probe: usize, row: &Probe, [from, to]: [Tip; 2], setting: &Setting) -> Option<Join> {
+    if to.x <= from.x {
+        return None;
+    }
+    let joined = tracker.joined(from, probe as u32, spur(setting))?;
+    Some(Join {
+        probe,
+        time: row.time,
+        strain: row.strain,
+        from,
+        to,
+        gap: joined.gap,
     })
 }
 
-fn branches(tracker: &Tracker, series: &Series, setting: &Setting) -> Vec<Branch> {
+fn leaves_plane(tracker: &Tracker, probe: usize, row: &Probe, series: &Series) -> Option<LeavesPlane> {
+    let departure = tracker.departure()?;
+    Some(LeavesPlane {
+        probe,
+        time: row.time,
+        strain: row.strain,
+        x: departure.x,
+        y: departure.y,
+        first_off_time: series.probes.get(departure.first_off as usize)?.time,
+    })
+}
+
+/// `grown`: the probe at which the front of the damage last advanced, which belongs to the main crack.
+fn branches(tracker: &Tracker, joins: &[Join], grown: u32, series: &Series, setting: &Setting) -> Vec<Branch> {
     let time = |probe: u32| {
         series
             .probes
@@ -63,7 +174,12 @@ fn branches(tracker: &Tracker, series: &Series, setting: &Setting) -> Vec<Branch
         .into_iter()
         .filter_map(|arm| {
             let (born, strain) = time(arm.born)?;
-            let (grown, _) = time(arm.grown)?;
+            let last = if arm.parent.is_none() {
+                arm.grown.max(grown)
+            } else {
+                arm.grown
+            };
+            let (grown, _) = time(last)?;
             Some(Branch {
                 parent: arm.parent,
                 probe: arm.born as usize,
@@ -73,6 +189,7 @@ fn branches(tracker: &Tracker, series: &Series, setting: &Setting) -> Vec<Branch
                 y: arm.y,
                 angle: arm.angle,
                 arrested: end - grown > patience,
+                joined: arm.parent.is_some() && joins.iter().any(|join| join.probe == arm.born as usize),
             })
         })
         .collect()

@@ -3,12 +3,22 @@
 use super::crack::Tip;
 use super::series::{Series, Setting};
 
-/// Spacings beyond one element edge by which the tip must advance, and to which it must never come back. Bonds at a
-/// loaded tip open and close by one or two, and a coarse mesh opens a whole element edge at once.
-pub const ADVANCE_SPACINGS: f64 = 2.0;
+/// Spacings beyond the notch that the tip must pass, on every mesh: more than the edge of an element of ten atoms, which
+/// opens bond by bond at half of the load at which the crack leaves it.
+pub const ADVANCE_SPACINGS: f64 = 12.0;
+
+/// A tip that does not advance while the strain grows by this share stands still.
+pub const STAND_GROWTH: f64 = 0.1;
+
+/// An advance through [`ADVANCE_SPACINGS`] that needs this much more strain, as a share, is led by the load: the crack
+/// creeps, unless it is faster than [`ARREST_SPEED`].
+pub const CREEP_GROWTH: f64 = 0.2;
 
 /// A crack slower than this share of the Rayleigh speed stands still.
 pub const ARREST_SPEED: f64 = 0.1;
+
+/// Spacings and one element edge beyond them: the least advance that is seen on every mesh.
+const SEEN_SPACINGS: f64 = 2.0;
 
 /// The first lasting advance of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -19,36 +29,92 @@ pub struct Initiation {
     pub strain: f64,
 }
 
-/// Advance along the path that counts as lasting, nm.
+/// The least advance that is seen on a mesh, nm; windows in time are made for it.
 pub fn threshold(setting: &Setting) -> f64 {
-    (ADVANCE_SPACINGS + f64::from(setting.element_at_crack)) * setting.spacing
+    (SEEN_SPACINGS + f64::from(setting.element_at_crack)) * setting.spacing
 }
 
-/// The beginning of the advance that takes the crack beyond the threshold and never back to the notch: where the tip had
-/// stood still for longer than a crack at [`ARREST_SPEED`] needs for one edge of the elements at the crack, which open
-/// one edge at a time.
+/// Advance along the path that a crack that has set out has behind it, nm.
+pub fn far(setting: &Setting) -> f64 {
+    ADVANCE_SPACINGS * setting.spacing
+}
+
+/// The beginning of the advance that takes the tip [`ADVANCE_SPACINGS`] beyond the notch: where it leaves, for good, the
+/// place at which it last stood still. An advance that creeps, and one under compression, is none: then the next one counts
+/// that takes the tip as far again.
+///
+/// Standing and creeping are told by the growth of the load, which is the textbook's stable growth of a crack: the event is
+/// then the same at any strain rate. Its measure is a length that is the same on every mesh, not an edge of its elements: a
+/// crack in large elements has not started because it has opened the first bonds of an edge.
 pub fn initiation(tips: &[Tip], series: &Series, setting: &Setting) -> Option<Initiation> {
     let notch = tips.first()?.arc_length;
-    let last_within = |reach: f64| tips.iter().rposition(|tip| tip.arc_length <= notch + reach);
-    let left = last_within(ADVANCE_SPACINGS * setting.spacing)? + 1;
-    let far = notch + threshold(setting);
-    let there = left + tips[left..].iter().position(|tip| tip.arc_length > far)?;
-    let edge = f64::from(setting.element_at_crack) * setting.spacing;
-    let patience = edge / (ARREST_SPEED * setting.rayleigh_speed);
-    let time = |probe: usize| series.probes[probe].time;
-    let mut start = there;
-    for probe in (last_within(0.0)? + 1..there).rev() {
-        if time(start) - time(probe) > patience {
-            break;
-        }
-        if tips[probe].arc_length > tips[probe - 1].arc_length {
-            start = probe;
+    let course = Course {
+        advance: tips.iter().map(|tip| tip.arc_length - notch).collect(),
+        series,
+        reach: far(setting),
+    };
+    let mut target = course.reach;
+    let mut from = 1;
+    loop {
+        let there = course.passes(target, from)?;
+        let start = course.departure(there, from, target);
+        // Where it came back to later, it has not left for good.
+        let place = course.advance[start - 1];
+        let back = course.advance.iter().rposition(|&advance| advance <= place)?;
+        if back >= start {
+            from = back + 1;
+        } else if course.pulls(start) && !course.creeps(start, there, setting) {
+            let row = &series.probes[start];
+            return Some(Initiation {
+                probe: start,
+                time: row.time,
+                strain: row.strain,
+            });
+        } else {
+            target += setting.spacing;
         }
     }
-    let row = series.probes.get(start)?;
-    Some(Initiation {
-        probe: start,
-        time: row.time,
-        strain: row.strain,
-    })
+}
+
+/// How far the tip is beyond the notch at every probe, nm.
+struct Course<'a> {
+    advance: Vec<f64>,
+    series: &'a Series,
+    reach: f64,
+}
+
+impl Course<'_> {
+    /// The first probe, not before another, at which the tip is farther than this.
+    fn passes(&self, target: f64, from: usize) -> Option<usize> {
+        let later = self.advance.get(from..)?.iter();
+        Some(from + later.clone().position(|&advance| advance > target)?)
+    }
+
+    /// Back from a probe along the advances that follow each other without a stand, no farther than the reach.
+    fn departure(&self, there: usize, from: usize, target: f64) -> usize {
+        let mut start = there;
+        for probe in (from..there).rev() {
+            let [now, then] = [start, probe].map(|probe| self.series.probes[probe].strain);
+            let stood = start - probe > 1 && now - then > STAND_GROWTH * now;
+            if stood || self.advance[probe] < target - self.reach {
+                break;
+            }
+            if self.advance[probe] > self.advance[probe - 1] {
+                start = probe;
+            }
+        }
+        start
+    }
+
+    fn pulls(&self, probe: usize) -> bool {
+        let row = &self.series.probes[probe];
+        row.strain > 0.0 && row.sigma_yy > 0.0
+    }
+
+    fn creeps(&self, start: usize, there: usize, setting: &Setting) -> bool {
+        let [first, last] = [start, there].map(|probe| &self.series.probes[probe]);
+        let gained = self.advance[there] - self.advance[start];
+        let is_slow = gained < ARREST_SPEED * setting.rayleigh_speed * (last.time - first.time);
+        is_slow && last.strain - first.strain > CREEP_GROWTH * first.strain
+    }
 }

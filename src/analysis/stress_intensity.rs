@@ -1,6 +1,9 @@
 //! Stress intensity factors, internal units eV/nm^2.5 (a stress in eV/nm^3 times the root of a length in nm).
 
 pub mod handbook;
+mod refusal;
+
+pub use refusal::Refusal;
 
 use std::f64::consts::PI;
 
@@ -23,6 +26,20 @@ pub const OFF_PLANE_SPACINGS: f64 = 2.0;
 /// Bins that a fit of two numbers with an error must have.
 pub const LEAST_BINS: usize = 3;
 
+/// A fit whose standard error is a larger share of K than this is refused: good ones have 1 %, poor ones 6 % and more.
+pub const MOST_ERROR_SHARE: f64 = 0.05;
+
+/// A fit is refused when its correction `c r` at the end of the range is larger than this: then most of the stress that is
+/// fitted is not that of the tip. On a field of one crack it is about 1.
+pub const MOST_CORRECTION: f64 = 1.25;
+
+/// J is refused when half of what lies between its smallest and largest ring is a larger share of the mean than this.
+pub const MOST_RING_SHARE: f64 = 0.1;
+
+/// J is refused when its K is lower than this share of Griffith's: a crack that sets out gets at least what its surfaces
+/// cost, and the rings know J to some percent.
+pub const LEAST_GRIFFITH_SHARE: f64 = 0.97;
+
 /// The largest radius of the rings of the J-integral in spacings, and in edges of the elements at the crack: what is
 /// larger costs more and tells the same.
 pub const RING_SPACINGS: f64 = 30.0;
@@ -40,8 +57,8 @@ pub fn on_plane(tip: Tip, setting: &Setting) -> bool {
 /// Result of the fit `sigma_yy sqrt(2 pi r) = K (1 + c r)` ahead of the tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NearTip {
-    /// K and its standard error.
     pub value: f64,
+    /// Standard error of K in the fit alone: how the stress scatters about it, not how well the definition holds.
     pub error: f64,
     /// Range of r, nm.
     pub from: f64,
@@ -49,11 +66,10 @@ pub struct NearTip {
     pub bins: usize,
 }
 
-/// K from the profile of one probe; `None` where the range holds too few bins, and where the tip has left the plane
-/// of the profile, so that the field ahead of it is not the one measured.
-pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> Option<NearTip> {
+/// K from the profile of one probe, or why there is none.
+pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> Result<NearTip, Refusal> {
     if !on_plane(tip, setting) {
-        return None;
+        return Err(Refusal::OffPlane);
     }
     let tip = tip.x;
     let from = setting.spacing * FROM_SPACINGS.max(FROM_ELEMENTS * f64::from(setting.element_at_crack));
@@ -63,10 +79,19 @@ pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> O
         .map(|(r, stress, _)| (r, stress[1] * (2.0 * PI * r).sqrt()))
         .collect();
     if points.len() < LEAST_BINS {
-        return None;
+        return Err(Refusal::FewBins);
     }
-    let fit = regression::line(&points)?;
-    Some(NearTip {
+    let fit = regression::line(&points).ok_or(Refusal::FewBins)?;
+    if fit.intercept <= 0.0 {
+        return Err(Refusal::NotPositive);
+    }
+    if fit.intercept_error > MOST_ERROR_SHARE * fit.intercept {
+        return Err(Refusal::LargeError);
+    }
+    if (fit.slope * to).abs() > MOST_CORRECTION * fit.intercept {
+        return Err(Refusal::SmallRange);
+    }
+    Ok(NearTip {
         value: fit.intercept,
         error: fit.intercept_error,
         from,
@@ -80,26 +105,34 @@ pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> O
 pub struct FromJ {
     /// Mean of the rings.
     pub value: f64,
-    /// Half of what lies between the smallest and the largest.
+    /// Agreement of the rings, half of what lies between the smallest and the largest: no uncertainty of K, because waves
+    /// that pass the tip move all rings alike.
     pub spread: f64,
 }
 
-/// K = sqrt(E J) of one probe, per thickness; `None` without rings, and where waves take more energy out of one of
-/// them than flows in.
-pub fn from_j(series: &Series, probe: usize, setting: &Setting) -> Option<FromJ> {
-    let rings = series.probes.get(probe)?.j_integral;
+/// K = sqrt(E J) of one probe, per thickness, or why there is none.
+pub fn from_j(series: &Series, probe: usize, setting: &Setting) -> Result<FromJ, Refusal> {
+    let rings = series.probes.get(probe).ok_or(Refusal::NoRings)?.j_integral;
+    if !rings.iter().all(|j| j.is_finite()) {
+        return Err(Refusal::NoRings);
+    }
     if !rings.iter().all(|j| *j > 0.0) {
-        return None;
+        return Err(Refusal::Outflow);
     }
     let rings = rings.map(|j| (setting.young_modulus * j).sqrt() / setting.thickness);
     let [low, high] = [
         rings.iter().copied().fold(f64::INFINITY, f64::min),
         rings.iter().copied().fold(0.0, f64::max),
     ];
-    Some(FromJ {
-        value: rings.iter().sum::<f64>() / rings.len() as f64,
-        spread: 0.5 * (high - low),
-    })
+    let value = rings.iter().sum::<f64>() / rings.len() as f64;
+    let spread = 0.5 * (high - low);
+    if spread > MOST_RING_SHARE * value {
+        return Err(Refusal::UnlikeRings);
+    }
+    if value < LEAST_GRIFFITH_SHARE * griffith(setting) {
+        return Err(Refusal::BelowGriffith);
+    }
+    Ok(FromJ { value, spread })
 }
 
 /// Griffith's K: the energy that the elastic field gives up pays for the two new surfaces, sqrt(2 gamma E), per

@@ -15,7 +15,8 @@ pub struct Arrival {
     pub face: Face,
     /// At the end of the notch.
     pub predicted: f64,
-    /// At the tip where it has run to by then; `None` where the run ends before.
+    /// At the tip where it has run to by then, between two probes; `None` where the run ends before. What belongs to the
+    /// running crack is told by this alone: times at the end of the notch do not come in the same order.
     pub at_running_tip: Option<f64>,
     /// Picked from the wave gauges; `None` where it does not stand out.
     pub measured: Option<f64>,
@@ -46,13 +47,6 @@ impl Face {
     }
 }
 
-impl Arrival {
-    /// At the tip, wherever it is.
-    pub fn at_tip(&self) -> f64 {
-        self.at_running_tip.unwrap_or(self.predicted)
-    }
-}
-
 impl Wave {
     /// nm/ps
     fn speed(self, setting: &Setting) -> f64 {
@@ -74,9 +68,14 @@ pub fn arrivals(tips: &[Tip], initiation: Option<Initiation>, series: &Series, s
         let path = face.path(notch, notch, setting);
         let speed = wave.speed(setting);
         let at_running_tip = initiation.and_then(|start| {
-            let mut later = series.probes.iter().zip(tips).skip(start.probe);
-            let met = later.find(|(row, tip)| speed * (row.time - start.time) >= face.path(notch, tip, setting))?;
-            Some(met.0.time - start.time)
+            // By how far the wave is past the tip, nm.
+            let past = |probe: usize| {
+                let time = series.probes[probe].time - start.time;
+                (time, speed * time - face.path(notch, &tips[probe], setting))
+            };
+            let met = (start.probe..tips.len()).find(|&probe| past(probe).1 >= 0.0)?;
+            let [(before, short), (after, long)] = [past(met.checked_sub(1)?), past(met)];
+            Some(before + (after - before) * short / (short - long))
         });
         Arrival {
             wave,

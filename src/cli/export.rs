@@ -129,12 +129,18 @@ fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
         head.push(String::new());
         head.push("The damping of the case is left out: it gets as hot as it gets.".to_owned());
     }
-    if until.crack_length.or(until.arrest).or(until.after_branch).is_some() {
+    let crack_stops = [
+        until.crack_length,
+        until.arrest,
+        until.after_branch,
+        until.leaves_the_plane,
+    ];
+    if crack_stops.iter().any(Option::is_some) {
         head.push(String::new());
         head.push(
             "The run ends at its strain or time: LAMMPS does not follow the crack, so it does not end at a".to_owned(),
         );
-        head.push("crack length, at an arrest or after a branch, as the case asks cgaft to.".to_owned());
+        head.push("crack length, at an arrest, after a branch or off its plane, as the case asks cgaft to.".to_owned());
     }
     head
 }

@@ -200,6 +200,7 @@ fn stop(until: &Until) -> Value {
         ("crack-length", until.crack_length.map(length)),
         ("arrest", until.arrest.map(time)),
         ("after-branch", until.after_branch.map(time)),
+        ("leaves-the-plane", until.leaves_the_plane.map(time)),
     ];
     conditions
         .into_iter()

@@ -49,7 +49,9 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         snapshots,
         last_advance,
         farthest_tip,
+        damage_front,
         branched,
+        left_plane,
     } = checkpoint;
     for (name, unit, numbers) in [
         ("position_x", "nm", position_x),
@@ -93,7 +95,9 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         ("peak_imbalance", "eV", peak_imbalance),
         ("last_advance", "ps", last_advance),
         ("farthest_tip", "nm", farthest_tip),
+        ("damage_front", "nm", damage_front),
         ("branched", "ps", branched),
+        ("left_plane", "ps", left_plane),
     ] {
         put_scalar(group, name, unit, *number)?;
     }
@@ -124,6 +128,8 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
         snapshots: get_scalar(group, "snapshots")?,
         last_advance: get_scalar(group, "last_advance")?,
         farthest_tip: get_scalar(group, "farthest_tip")?,
+        damage_front: get_scalar(group, "damage_front")?,
         branched: get_scalar(group, "branched")?,
+        left_plane: get_scalar(group, "left_plane")?,
     })
 }

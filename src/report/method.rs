@@ -4,12 +4,14 @@ use super::Analysed;
 use super::numbers::significant;
 use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
+use crate::analysis::crack::leaving::LEAVES_PLANE_SPACINGS;
 use crate::analysis::crack::{SPUR_ELEMENTS, SPUR_SPACINGS};
-use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED};
+use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED, CREEP_GROWTH, STAND_GROWTH};
 use crate::analysis::series::RINGS;
 use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
 use crate::analysis::stress_intensity::{
-    FROM_ELEMENTS, FROM_SPACINGS, RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS, TO_SHARE,
+    FROM_ELEMENTS, FROM_SPACINGS, LEAST_GRIFFITH_SHARE, MOST_CORRECTION, MOST_ERROR_SHARE, MOST_RING_SHARE,
+    RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS, TO_SHARE,
 };
 use crate::analysis::waves::{AFTER_SHARE, BEFORE_SHARE, LEAST_RIVALS, LEAST_SCATTERS, WINDOW};
 
@@ -35,17 +37,28 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Initiation",
             format!(
-                "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings and one element edge beyond \
-                 the notch, never to come back to less than {ADVANCE_SPACINGS} spacings: before it the tip stood still \
-                 for longer than a crack at {ARREST_SPEED} c_R needs for one edge of the elements there."
+                "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings beyond the notch, on every mesh and at \
+                 every rate: where it leaves for good the place at which it last stood still while the strain grew by {} %. An \
+                 advance that needs {} % more strain and is slower than {ARREST_SPEED} c_R creeps and is none, and there is none \
+                 under compression. The first bond is that by which the tip first moves.",
+                percent(STAND_GROWTH),
+                percent(CREEP_GROWTH)
+            ),
+        ),
+        (
+            "Leaves the plane",
+            format!(
+                "When a broken path from the notch first reaches {LEAVES_PLANE_SPACINGS} spacings from the crack plane, and where; beside \
+                 it when the first bond of that path off the plane broke. A crack that joins one that has opened ahead of it \
+                 is told in the table joins: that is neither a speed nor a branch."
             ),
         ),
         (
             "Crack speed",
             format!(
                 "Slope of the arc length over time by least squares. The window is the time in which a crack at \
-                 {WINDOW_SPEED} c_R runs {WINDOW_ADVANCES} times the advance that counts as initiation (stated for \
-                 each case under Provenance); c_R is the exact Rayleigh speed of this lattice and cutoff."
+                 {WINDOW_SPEED} c_R runs {WINDOW_ADVANCES} times the least advance that is seen on the mesh (stated for \
+                 each case under Provenance), cut off where the tip jumps; a tip that moves back has no speed. c_R is the exact Rayleigh speed of this lattice and cutoff."
             ),
         ),
         (
@@ -53,8 +66,10 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
             format!(
                 "Least-squares fit of σyy √(2πr) = K (1 + c r) at the last probe before initiation, from r = \
                  {FROM_SPACINGS} spacings (at least {FROM_ELEMENTS} element edges) to {} % of the crack length, the \
-                 ligament or the height, whichever is smallest; ± is the standard error of the fit alone.",
-                percent(TO_SHARE)
+                 ligament or the height, whichever is smallest; ± is the standard error of the fit alone. Refused where K is not positive, where \
+                 that error is above {} % of K, and where c r is above {MOST_CORRECTION} at the end of the range.",
+                percent(TO_SHARE),
+                percent(MOST_ERROR_SHARE)
             ),
         ),
         (
@@ -63,10 +78,13 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 "√(EJ) at the same probe, J being the energy that the field around the tip would give for its advance: \
                  the domain integral with finite strain and inertia, in {RINGS} rings side by side that reach to at most \
                  {RING_SPACINGS} spacings (at least {RING_ELEMENTS} element edges), and to at most {} % of the way to the nearest \
-                 edge or grip. The value is the mean of the rings, ± half of the range between them: what \
-                 a mesh too coarse for the rings makes of it. Waves that pass the tip let J itself swing by some percent \
+                 edge or grip. The value is the mean of the rings; they agree to half of the range between \
+                 them, which is no uncertainty of K. Refused where they agree to no better than {} %, and below {} % of Griffith's K: \
+                 a crack that sets out gets what its surfaces cost. Waves that pass the tip let J itself swing by some percent \
                  within picoseconds, in all rings alike. Absent where there is no room for rings.",
-                percent(RING_CLEAR_SHARE)
+                percent(RING_CLEAR_SHARE),
+                percent(MOST_RING_SHARE),
+                percent(LEAST_GRIFFITH_SHARE)
             ),
         ),
         (

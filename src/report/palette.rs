@@ -14,6 +14,16 @@ pub const LINES: [[u8; 3]; 7] = [
 /// Length of dash and gap; `None` is a full line. Not in step with the colours, so that 28 pairs differ.
 pub const DASHES: [Option<(i32, i32)>; 4] = [None, Some((9, 4)), Some((4, 3)), Some((16, 4))];
 
+/// The style of a curve that has this of the colours and this of the dashes.
+pub const fn style(color: usize, dash: usize) -> usize {
+    let [colors, dashes] = [LINES.len(), DASHES.len()];
+    let mut style = color;
+    while style % dashes != dash {
+        style += colors;
+    }
+    style
+}
+
 /// Stops of the stress scale from compression to tension: dark at zero, so that crack faces, which carry no stress,
 /// stand out against the white that shows through the crack.
 const STRESS: [[f64; 3]; 7] = [

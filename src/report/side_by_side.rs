@@ -114,8 +114,10 @@ pub fn columns(panels: &[Panel]) -> Vec<Column> {
         rows.text("quantity", |row| row.2.column()),
         rows.number("first", first),
         rows.number("value", value),
-        rows.number("difference", |row| Some(value(row)? - first(row)?)),
-        rows.number("relative_difference", |row| Some(value(row)? / first(row)? - 1.0)),
+        rows.number("difference", |row| Some(row.2.difference(value(row)?, first(row)?))),
+        rows.number("relative_difference", |row| {
+            row.2.relative_difference(value(row)?, first(row)?)
+        }),
         rows.number("asked", |row| row.0.asked(row.2)),
     ]
 }

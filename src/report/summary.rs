@@ -3,12 +3,16 @@
 use super::numbers::{ABSENT, count, duration, signed_percent, significant};
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
 use super::{Analysed, CaseResult};
+use crate::analysis::stress_intensity::{FromJ, NearTip};
 
 /// More cases than this are left to the table.
 const MOST_NAMED: usize = 4;
 
 /// So that a difference of just one probe counts as one, however it was rounded.
 const ROUNDING: f64 = 1.0 + 1e-6;
+
+/// No stress intensity is known to more decimals, MPa √m.
+const MOST_DECIMALS: i32 = 3;
 
 /// Factors below this are not worth a number.
 const ALIKE: f64 = 1.05;
@@ -252,39 +256,56 @@ fn costs(cases: &[Analysed]) -> Vec<Row> {
 fn results(cases: &[Analysed]) -> Vec<Row> {
     let root_metre = |value: f64| significant(value * MEGAPASCAL_ROOT_METRE, 3);
     vec![
+        row(cases, "first bond breaks at strain (%)", |case| {
+            Some(significant(case.findings.first_bond?.strain * PERCENT, 3))
+        }),
         row(cases, "crack starts at strain (%)", |case| {
             Some(significant(case.findings.initiation?.strain * PERCENT, 3))
         }),
         row(cases, "highest speed / c_R", |case| {
             Some(significant(case.peak_speed_over_rayleigh()?, 3))
         }),
+        row(cases, "share of the moving time that has a speed (%)", |case| {
+            Some(significant(case.findings.speed_share? * PERCENT, 2))
+        }),
+        row(cases, "leaves the plane at strain (%)", |case| {
+            Some(significant(case.findings.leaves_plane?.strain * PERCENT, 3))
+        }),
         row(cases, "first branch at strain (%)", |case| {
             Some(significant(case.findings.first_branch()?.strain * PERCENT, 3))
         }),
-        row(cases, "K at initiation, near tip (MPa √m)", |case| {
-            let fit = case.findings.near_tip?;
-            Some(format!(
-                "{} ± {}",
-                root_metre(fit.value),
-                significant(fit.error * MEGAPASCAL_ROOT_METRE, 2)
-            ))
-        }),
         row(
             cases,
-            "K at initiation, J-integral, ± over its rings (MPa √m)",
+            "K at initiation, near tip, ± standard error of the fit (MPa √m)",
             |case| {
-                let j = case.findings.from_j?;
-                Some(format!(
-                    "{} ± {}",
-                    root_metre(j.value),
-                    significant(j.spread * MEGAPASCAL_ROOT_METRE, 2)
-                ))
+                let refused = case.findings.near_tip_refused.map(|reason| format!("none: {reason}"));
+                let told = |fit: NearTip| with_error(fit.value, fit.error);
+                case.findings.near_tip.map(told).or(refused)
+            },
+        ),
+        row(
+            cases,
+            "K at initiation, J-integral, in brackets the agreement of its rings (MPa √m)",
+            |case| {
+                let refused = case.findings.from_j_refused.map(|reason| format!("none: {reason}"));
+                let told = |j: FromJ| {
+                    let agreement = significant(j.spread / j.value * PERCENT, 1);
+                    format!("{} (rings agree to {agreement} %)", root_metre(j.value))
+                };
+                case.findings.from_j.map(told).or(refused)
             },
         ),
         row(cases, "K of Griffith (MPa √m)", |case| {
             Some(root_metre(case.findings.griffith?))
         }),
     ]
+}
+
+/// A stress intensity in MPa √m and its error with two digits; the value has as many decimals.
+fn with_error(value: f64, error: f64) -> String {
+    let [value, error] = [value, error].map(|intensity| intensity * MEGAPASCAL_ROOT_METRE);
+    let decimals = (1 - error.log10().floor() as i32).clamp(0, MOST_DECIMALS) as usize;
+    format!("{value:.decimals$} ± {error:.decimals$}")
 }
 
 fn distances(cases: &[Analysed]) -> Vec<Row> {

@@ -9,7 +9,7 @@ use super::numbers::{self, round_significant};
 use super::precision::{self, Quantity};
 use super::side_by_side::{self, Panel};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
-use super::{Analysed, ReportError, branching, expected, save, scaling, toughness};
+use super::{Analysed, ReportError, branching, events, expected, save, scaling, toughness};
 use crate::analysis::waves::{Arrival, Face, Wave};
 use crate::plan::{Comparison, SCALING};
 
@@ -43,6 +43,8 @@ pub fn all(
         ("k_ic", toughness::columns(cases, comparisons)),
         ("branches", branches(cases)),
         ("first_branch", branching::columns(cases, comparisons)),
+        ("joins", events::joins(cases)),
+        ("path", events::path(cases)),
         ("cost", cost(cases)),
     ];
     let precision = precision::rows(cases);
@@ -180,7 +182,7 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
     let rows = Rows(cases.iter().collect());
     let setting = |case: &&Analysed| case.result.setting.clone();
     let root_metre = |value: f64| value * MEGAPASCAL_ROOT_METRE;
-    vec![
+    let mut columns = vec![
         rows.text("case", |case| &case.result.name),
         rows.count("nodes", |case| setting(case).map(|setting| setting.nodes)),
         rows.count("elements", |case| setting(case).map(|setting| setting.elements)),
@@ -215,7 +217,9 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
         rows.number("first_branch_strain", |case| {
             case.findings.first_branch().map(|branch| branch.strain)
         }),
-    ]
+    ];
+    columns.extend(events::columns(&rows));
+    columns
 }
 
 /// Errors are relative.

@@ -6,6 +6,7 @@ use super::tables::Rows;
 use super::units::MEGAPASCAL_ROOT_METRE;
 use super::{Analysed, expected};
 use crate::analysis::series::{Probe, Setting};
+use crate::analysis::stress_intensity::Refusal;
 use crate::analysis::stress_intensity::handbook::{self, Grips};
 use crate::plan::Comparison;
 
@@ -52,6 +53,15 @@ impl Definition {
         }
     }
 
+    /// Why it gives no number, where that is known.
+    pub fn refused(self, case: &Analysed) -> Option<Refusal> {
+        match self {
+            Self::NearTip => case.findings.near_tip_refused,
+            Self::JIntegral => case.findings.from_j_refused,
+            _ => None,
+        }
+    }
+
     /// MPa sqrt(m); `None` where there is no crack that started.
     pub fn value(self, case: &Analysed) -> Option<f64> {
         let findings = &case.findings;
@@ -74,6 +84,13 @@ impl Definition {
         };
         Some(value * MEGAPASCAL_ROOT_METRE)
     }
+}
+
+/// Why definitions give no number: `the J-integral: there is no room for rings …`.
+fn reasons(case: &Analysed) -> Option<String> {
+    let reason = |definition: Definition| Some(format!("{}: {}", definition.words(), definition.refused(case)?));
+    let reasons: Vec<String> = Definition::ALL.into_iter().filter_map(reason).collect();
+    (!reasons.is_empty()).then(|| reasons.join("; "))
 }
 
 /// The specimen, and the last probe before the crack starts.
@@ -101,5 +118,7 @@ pub fn columns(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Column> {
     let mut columns = vec![rows.text("case", |case: &&Analysed| case.name())];
     columns.extend(Definition::ALL.map(|definition| rows.number(definition.column(), |case| definition.value(case))));
     columns.push(rows.number("k_ic_reference_mpa_sqrt_m", |case| reference(case, comparisons)));
+    let reasons: Vec<Option<String>> = rows.0.iter().map(|case| reasons(case)).collect();
+    columns.push(Column::new("reasons".into(), reasons));
     columns
 }

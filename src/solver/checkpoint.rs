@@ -37,11 +37,15 @@ pub struct Checkpoint {
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,
-    /// Time at which the crack last advanced, ps, and the farthest tip, nm; for the stop at arrest.
+    /// Time at which the crack or the damage ahead of it last advanced, ps, the farthest tip and the front of the damage, nm;
+    /// for the stop at arrest.
     pub last_advance: f64,
     pub farthest_tip: f64,
+    pub damage_front: f64,
     /// When the crack first had a branch, ps, if the run is to end after it; infinite otherwise.
     pub branched: f64,
+    /// When the crack left its plane, ps; infinite as long as it keeps to it.
+    pub left_plane: f64,
 }
 
 impl Checkpoint {

@@ -6,6 +6,7 @@ use super::j_integral::Rings;
 use super::ledger::Balance;
 use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe};
 use crate::analysis::crack::{Tracker, branches, spur};
+use crate::analysis::damage;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
 
@@ -67,7 +68,11 @@ impl Solver {
         let bonds = self.changed_bonds(number as u32);
         if let Some(tracker) = &mut self.tracker {
             tracker.follow(&bonds);
-            self.stop.follow(tracker.tip().x, self.time);
+            let front = damage::front(tracker, &bonds, &self.setting);
+            self.stop.follow(tracker.tip().x, front, self.time);
+            if tracker.has_left_plane() {
+                self.stop.leave_plane(self.time);
+            }
             let is_wanted = self.settings.until.after_branch.is_some() && self.stop.branched().is_infinite();
             if is_wanted && !bonds.is_empty() && branches::arms(tracker, spur(&self.setting)).len() > 1 {
                 self.stop.branch(self.time);

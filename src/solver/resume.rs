@@ -38,7 +38,9 @@ impl Solver {
             snapshots: self.snapshots.taken(),
             last_advance: self.stop.last_advance(),
             farthest_tip: self.stop.farthest_tip(),
+            damage_front: self.stop.front(),
             branched: self.stop.branched(),
+            left_plane: self.stop.left_plane(),
         }
     }
 
@@ -70,10 +72,13 @@ impl Solver {
         let Checkpoint {
             last_advance,
             farthest_tip,
+            damage_front,
             branched,
+            left_plane,
             ..
         } = *checkpoint;
-        self.stop.restore(last_advance, farthest_tip, branched);
+        self.stop
+            .restore(last_advance, [farthest_tip, damage_front], [branched, left_plane]);
         Ok(())
     }
 

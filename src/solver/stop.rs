@@ -16,6 +16,8 @@ pub struct Until {
     pub arrest: Option<f64>,
     /// The crack was first seen to have a branch so long ago, ps.
     pub after_branch: Option<f64>,
+    /// The crack has left its plane so long ago, ps.
+    pub leaves_plane: Option<f64>,
 }
 
 /// Why a run ended.
@@ -26,6 +28,7 @@ pub enum Ending {
     CrackLength(f64),
     Arrest(f64),
     AfterBranch(f64),
+    LeavesPlane(f64),
     /// Asked to stop; a checkpoint is there.
     Interrupted,
 }
@@ -38,6 +41,7 @@ impl std::fmt::Display for Ending {
             Self::CrackLength(tip) => write!(f, "crack length {tip:.3} nm reached"),
             Self::Arrest(time) => write!(f, "crack stood still for {time:.3} ps"),
             Self::AfterBranch(time) => write!(f, "crack branched {time:.3} ps ago"),
+            Self::LeavesPlane(time) => write!(f, "crack left its plane {time:.3} ps ago"),
             Self::Interrupted => write!(f, "interrupted"),
         }
     }
@@ -57,36 +61,59 @@ impl Until {
     }
 }
 
-/// Follows the foremost tip from probe to probe.
+/// Follows the foremost tip and the damage ahead of it from probe to probe.
 #[derive(Clone, Debug)]
 pub struct Watch {
     /// Advance beyond the notch that means that the crack has set out, nm.
     threshold: f64,
     notch: f64,
     farthest: f64,
+    /// Foremost bond that has broken in the way of the crack, nm, and when it or the tip last advanced, ps.
+    front: f64,
     last_advance: f64,
     /// ps; infinite as long as the crack has no branch.
     branched: f64,
+    /// ps; infinite as long as the crack keeps to its plane.
+    left_plane: f64,
 }
 
 impl Watch {
     pub fn new(setting: &Setting) -> Self {
         let notch = setting.crack_length;
         Self {
-            threshold: initiation::threshold(setting),
+            threshold: initiation::far(setting),
             notch,
             farthest: notch,
+            front: notch,
             last_advance: 0.0,
             branched: f64::INFINITY,
+            left_plane: f64::INFINITY,
         }
     }
 
-    /// Where the foremost tip is, nm from the left edge, at a time, ps.
-    pub fn follow(&mut self, tip: f64, time: f64) {
-        if tip > self.farthest {
-            self.farthest = tip;
+    /// Where the foremost tip and the front of the damage are, nm from the left edge, at a time, ps. A crack whose damage
+    /// goes on ahead of its tip has not come to rest.
+    pub fn follow(&mut self, tip: f64, front: f64, time: f64) {
+        if tip.max(front) > self.farthest.max(self.front) {
             self.last_advance = time;
         }
+        self.farthest = self.farthest.max(tip);
+        self.front = self.front.max(front);
+    }
+
+    /// Takes note that the crack has left its plane by a time, ps; the first time counts.
+    pub fn leave_plane(&mut self, time: f64) {
+        self.left_plane = self.left_plane.min(time);
+    }
+
+    /// When the crack left its plane, ps; infinite as long as it keeps to it.
+    pub fn left_plane(&self) -> f64 {
+        self.left_plane
+    }
+
+    /// nm from the left edge
+    pub fn front(&self) -> f64 {
+        self.front
     }
 
     /// Takes note that the crack has a branch at a time, ps; the first time counts.
@@ -109,10 +136,10 @@ impl Watch {
         self.last_advance
     }
 
-    pub fn restore(&mut self, last_advance: f64, farthest: f64, branched: f64) {
+    pub fn restore(&mut self, last_advance: f64, [farthest, front]: [f64; 2], [branched, left_plane]: [f64; 2]) {
         self.last_advance = last_advance;
-        self.farthest = farthest;
-        self.branched = branched;
+        (self.farthest, self.front) = (farthest, front);
+        (self.branched, self.left_plane) = (branched, left_plane);
     }
 
     /// The first reason to stop at this moment; times and strains count within half a step, and a run takes one at least.
@@ -134,10 +161,14 @@ impl Watch {
             return Some(Ending::Arrest(still));
         }
         let since = time - self.branched;
+        if until.after_branch.is_some_and(|end| since >= end) {
+            return Some(Ending::AfterBranch(since));
+        }
+        let since = time - self.left_plane;
         until
-            .after_branch
+            .leaves_plane
             .filter(|&end| since >= end)
-            .map(|_| Ending::AfterBranch(since))
+            .map(|_| Ending::LeavesPlane(since))
     }
 }
 
@@ -145,7 +176,7 @@ impl Watch {
 mod tests {
     use super::*;
 
-    /// A notch of 10 nm in atoms 0.25 nm apart; the crack has set out beyond 10.75 nm.
+    /// A notch of 10 nm in atoms 0.25 nm apart; the crack has set out beyond 13 nm.
     fn watch() -> Watch {
         let setting = Setting {
             spacing: 0.25,
@@ -214,10 +245,10 @@ mod tests {
             ..Until::default()
         };
         let mut watch = watch();
-        watch.follow(29.0, 40.0);
+        watch.follow(29.0, 29.0, 40.0);
         assert_eq!(watch.ending(&until, 40.0, 0.2, at_a_thousandth), None);
-        watch.follow(30.5, 41.0);
-        watch.follow(20.0, 42.0);
+        watch.follow(30.5, 30.5, 41.0);
+        watch.follow(20.0, 20.0, 42.0);
         assert_eq!(
             watch.ending(&until, 42.0, 0.2, at_a_thousandth),
             Some(Ending::CrackLength(30.5))
@@ -248,17 +279,56 @@ mod tests {
             ..Until::default()
         };
         let mut watch = watch();
-        watch.follow(10.5, 5.0);
+        watch.follow(12.9, 12.9, 5.0);
         assert_eq!(
             watch.ending(&until, 90.0, 0.2, at_a_thousandth),
             None,
-            "it only opened a bond"
+            "it only opened some bonds"
         );
-        watch.follow(15.0, 91.0);
+        watch.follow(15.0, 15.0, 91.0);
         assert_eq!(watch.ending(&until, 100.0, 0.2, at_a_thousandth), None);
         assert_eq!(
             watch.ending(&until, 111.0, 0.2, at_a_thousandth),
             Some(Ending::Arrest(20.0))
         );
+    }
+
+    #[test]
+    fn a_crack_has_not_come_to_rest_while_damage_goes_on_ahead_of_its_tip() {
+        let until = Until {
+            arrest: Some(20.0),
+            ..Until::default()
+        };
+        let mut watch = watch();
+        watch.follow(15.0, 15.0, 91.0);
+        watch.follow(15.0, 18.0, 105.0);
+        assert_eq!(watch.ending(&until, 111.0, 0.2, at_a_thousandth), None);
+        assert_eq!(watch.farthest_tip(), 15.0, "the tip hangs together with the notch");
+        watch.follow(17.0, 17.0, 120.0);
+        let ending = watch.ending(&until, 125.0, 0.2, at_a_thousandth);
+        assert_eq!(ending, Some(Ending::Arrest(20.0)), "the tip only follows");
+    }
+
+    #[test]
+    fn a_run_goes_on_for_a_time_after_the_crack_has_left_its_plane() {
+        let until = Until {
+            strain: Some(0.5),
+            leaves_plane: Some(50.0),
+            ..Until::default()
+        };
+        let mut watch = watch();
+        assert_eq!(watch.ending(&until, 90.0, 0.2, at_a_thousandth), None);
+        watch.leave_plane(91.0);
+        watch.leave_plane(95.0);
+        assert_eq!(watch.ending(&until, 140.0, 0.2, at_a_thousandth), None);
+        let ending = watch.ending(&until, 141.0, 0.2, at_a_thousandth);
+        assert_eq!(ending, Some(Ending::LeavesPlane(50.0)));
+        let mut resumed = super::tests::watch();
+        resumed.restore(
+            watch.last_advance(),
+            [watch.farthest_tip(), watch.front()],
+            [watch.branched(), watch.left_plane()],
+        );
+        assert_eq!(resumed.ending(&until, 141.0, 0.2, at_a_thousandth), ending);
     }
 }

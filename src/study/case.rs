@@ -191,6 +191,9 @@ pub struct Until {
     /// The crack was first seen to have a branch so long ago, ps.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub after_branch: Option<f64>,
+    /// The crack has left its plane so long ago, ps.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub leaves_the_plane: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]

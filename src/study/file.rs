@@ -232,6 +232,8 @@ pub struct Until {
     pub arrest: Given<Time>,
     /// The crack has had a branch, as the report counts them, for this long.
     pub after_branch: Given<Time>,
+    /// The crack has left its plane by eight spacings for this long.
+    pub leaves_the_plane: Given<Time>,
 }
 
 #[derive(Clone, Debug, Deserialize)]

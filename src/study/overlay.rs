@@ -52,7 +52,7 @@ field_by_field! {
     StrainRate { mode rate ramp sponge damping }
     Run { until time_step summation mass relax ranks threads checkpoint_every }
     Relax { strain }
-    Until { strain time crack_length arrest after_branch }
+    Until { strain time crack_length arrest after_branch leaves_the_plane }
     Probes { every }
 }
 

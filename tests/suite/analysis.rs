@@ -1,5 +1,7 @@
 //! Cracks whose shape and motion are known beforehand.
 
+mod initiation;
+mod motion;
 mod stress_intensity;
 mod waves;
 
@@ -182,49 +184,6 @@ fn a_branch_is_found_with_place_time_and_angle_and_a_spur_is_not() {
 fn a_crack_that_still_runs_at_the_end_is_not_arrested() {
     let found = findings(forked(), 121);
     assert!(!found.branches[0].arrested, "{:?}", found.branches);
-}
-
-#[test]
-fn initiation_is_the_first_lasting_advance() {
-    let mut bonds = breaks(&straight(99.0, 110.0), 20);
-    // It heals and stays so until probe 60.
-    bonds.extend(
-        breaks(&straight(102.0, 110.0), 25)
-            .into_iter()
-            .map(|event| BondEvent { broken: false, ..event }),
-    );
-    bonds.extend(breaks(&straight(102.0, 130.0), 60));
-    let start = findings(bonds, 100).initiation.unwrap();
-    assert_eq!((start.probe, start.time), (60, 60.0));
-    assert!((start.strain - 60.0 * 1e-4).abs() < EXACT);
-}
-
-#[test]
-fn initiation_is_where_the_advance_begins_and_not_where_it_has_gone_far_enough() {
-    let opened = |from: f64, to: f64, probe: u32| breaks(&straight(from, to), probe);
-    // Half an edge opens early and stands; then a whole edge and more opens within twenty probes.
-    let mut bonds = opened(99.0, 106.0, 20);
-    bonds.extend((0..20).flat_map(|step| opened(106.0 + f64::from(step), 107.0 + f64::from(step), 60 + step as u32)));
-    for element_at_crack in [1, 10] {
-        let setting = Setting {
-            element_at_crack,
-            ..setting()
-        };
-        let found = analyse(&series(100, bonds.clone(), &setting), &setting)
-            .initiation
-            .unwrap();
-        let wanted = if element_at_crack == 1 { 20 } else { 60 };
-        assert_eq!(found.probe, wanted, "elements of {element_at_crack} atoms an edge");
-    }
-}
-
-#[test]
-fn a_crack_that_never_starts_has_no_initiation_and_no_speed() {
-    let found = findings(breaks(&straight(99.0, 101.0), 20), 100);
-    assert_eq!(found.initiation, None);
-    assert_eq!(found.peak_speed(), None);
-    assert_eq!(found.near_tip, None);
-    assert!(found.speeds.iter().all(Option::is_none));
 }
 
 #[test]

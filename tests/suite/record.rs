@@ -35,7 +35,9 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         snapshots: 3,
         last_advance: number(3),
         farthest_tip: number(4),
+        damage_front: 14.25,
         branched: f64::INFINITY,
+        left_plane: 61.5,
     }
 }
 

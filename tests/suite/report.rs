@@ -8,6 +8,7 @@ mod parquet;
 mod precision;
 mod scaling;
 mod side_by_side;
+mod units;
 mod verdict;
 
 use std::collections::BTreeMap;
@@ -22,12 +23,13 @@ use tempfile::TempDir;
 use super::synthetic::{crack_run, setting, torn};
 
 /// The columns that users rely on.
-const COLUMNS: [(&str, &str); 9] = [
+const COLUMNS: [(&str, &str); 10] = [
     (
         "summary",
         "case,nodes,elements,represented_atoms,steps,time_step_ps,wall_s,atom_steps_per_s,energy_error_relative,\
          cutoff_release_ev,initiation_strain,initiation_time_ps,k_ic_near_tip_mpa_sqrt_m,k_ic_j_integral_mpa_sqrt_m,\
-         k_griffith_mpa_sqrt_m,peak_speed_over_c_r,first_branch_time_ps,first_branch_strain",
+         k_griffith_mpa_sqrt_m,peak_speed_over_c_r,first_branch_time_ps,first_branch_strain,\
+         first_bond_strain,first_bond_time_ps,speed_share,joins,leaves_plane_time_ps,leaves_plane_strain,parted_elsewhere_strain",
     ),
     (
         "crack_speed",
@@ -49,16 +51,18 @@ const COLUMNS: [(&str, &str); 9] = [
     (
         "k_ic",
         "case,k_near_tip_mpa_sqrt_m,k_j_integral_mpa_sqrt_m,k_energy_balance_mpa_sqrt_m,k_between_grips_mpa_sqrt_m,\
-         k_under_stress_mpa_sqrt_m,k_griffith_mpa_sqrt_m,k_ic_reference_mpa_sqrt_m",
+         k_under_stress_mpa_sqrt_m,k_griffith_mpa_sqrt_m,k_ic_reference_mpa_sqrt_m,reasons",
     ),
     (
         "first_branch",
-        "case,time_ps,strain,x_nm,y_nm,angle_deg,after_start_ps,reference_from_ps,reference_to_ps",
+        "case,time_ps,strain,x_nm,y_nm,angle_deg,after_start_ps,reference_from_ps,reference_to_ps,\
+         leaves_plane_time_ps,leaves_plane_after_start_ps,leaves_plane_strain,leaves_plane_x_nm,leaves_plane_y_nm,first_off_plane_after_start_ps",
     ),
     (
         "branches",
         "case,branch,parent,time_ps,strain,x_nm,y_nm,angle_deg,arrested",
     ),
+    ("path", "case,time_ps,strain,x_nm,y_nm,direction_deg,closed_again"),
     ("cost", "case,ranks,threads,phase,calls,seconds,seconds_per_step"),
 ];
 

@@ -1,6 +1,6 @@
 //! The notch: the bonds that were severed before anything broke.
 
-use super::plaquette::Bond;
+use super::plaquette::{Bond, Plaquette};
 
 /// The cut, and where it lies in the lattice.
 #[derive(Clone, Copy, Debug)]
@@ -40,5 +40,16 @@ impl Notch {
         let [x, y] = bond.midpoint();
         let plane = (f64::from(self.row) + 0.5) * 0.75_f64.sqrt();
         [x * self.spacing - self.left_x, (y - plane) * self.spacing]
+    }
+
+    /// Whether a bond crosses the crack plane.
+    pub fn is_in_plane(&self, bond: Bond) -> bool {
+        bond.row == self.row && bond.direction != 0
+    }
+
+    /// Centre of a plaquette, nm from the left edge and from the crack plane.
+    pub fn centre(&self, of: Plaquette) -> [f64; 2] {
+        let sides = [0, 1, 2].map(|direction| self.place(of.across(direction).0));
+        [0, 1].map(|axis| sides.iter().map(|side| side[axis]).sum::<f64>() / 3.0)
     }
 }

@@ -9,12 +9,14 @@ use super::{INTACT, MOUTH, Tracker, UNREACHED};
 impl Tracker {
     pub(super) fn reach(&mut self, at: usize, distance: u32) {
         let cell = &mut self.cells[at];
-        if cell.distance == UNREACHED {
+        let is_new = cell.distance == UNREACHED;
+        cell.distance = distance;
+        if is_new {
             let off = (cell.place.row - self.notch.row).abs();
             self.foremost
                 .push((cell.place.half_spacings(), Reverse(off), cell.place, at));
+            self.note_height(at);
         }
-        cell.distance = distance;
     }
 
     pub(super) fn open(&mut self, bond: Bond, probe: u32) {

@@ -112,3 +112,87 @@ fn gauges(face: Face, series: &Series, setting: &Setting) -> Option<(usize, usiz
     };
     find(true).zip(find(false))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::analysis::series::Probe;
+
+    /// Copper-like constants to four digits.
+    const DIGITS: f64 = 2e-3;
+
+    fn setting() -> Setting {
+        Setting {
+            spacing: 0.255_585,
+            length: 100.0,
+            left_x: 0.0,
+            height: 40.0,
+            crack_row: Some(80),
+            crack_length: 46.0,
+            strain_rate: 1e-4,
+            thickness: 0.2087,
+            longitudinal_speed: 2.011,
+            transverse_speed: 1.161,
+            rayleigh_speed: 1.0675,
+            young_modulus: 528.18,
+            poisson_ratio: 1.0 / 3.0,
+            fracture_energy: 3.2475,
+            element_at_crack: 1,
+            nodes: 1,
+            elements: 1,
+            represented_atoms: 1,
+        }
+    }
+
+    /// What a plane wave that moves along +s (`way` 1) or against it carries in velocity `v`: the stress on its plane.
+    fn stress(way: f64, speed: f64, v: f64) -> f64 {
+        // Atoms of 802 u on a triangular lattice, eV ps^2/nm^5. [CODATA 2018]
+        let unit = 1.660_539_066_6e-27 / 1.602_176_634e-19 * 1e6;
+        let density = 802.0 * unit / (0.75_f64.sqrt() * 0.255_585_f64.powi(2) * 0.2087);
+        -way * density * speed * v
+    }
+
+    #[test]
+    fn a_gauge_takes_a_wave_that_leaves_for_nothing_and_one_that_returns_twice() {
+        let (setting, v) = (setting(), 0.01);
+        let above = [setting.crack_length, 10.0];
+        let places = vec![above, [above[0], -10.0], [23.0, 2.0], [23.0, -2.0]];
+        let waves = [
+            (Wave::Longitudinal, Face::TopAndBottom),
+            (Wave::Transverse, Face::TopAndBottom),
+            (Wave::Longitudinal, Face::Left),
+            (Wave::Transverse, Face::Left),
+        ];
+        for (wave, face) in waves {
+            let speed = wave.speed(&setting);
+            // Away from the tip is up above it, and to the left behind it.
+            let away = if face == Face::TopAndBottom { 1.0 } else { -1.0 };
+            let read = |way: f64| {
+                let sigma = stress(way, speed, v);
+                let mut gauges = [[0.0; 5]; 4];
+                let (velocity, component, mirrored) = match (wave, face) {
+                    (Wave::Longitudinal, Face::TopAndBottom) => (1, 3, [-1.0, 1.0]),
+                    (Wave::Transverse, Face::TopAndBottom) => (0, 4, [1.0, -1.0]),
+                    (Wave::Longitudinal, _) => (0, 2, [1.0, 1.0]),
+                    _ => (1, 4, [-1.0, -1.0]),
+                };
+                for (gauge, side) in gauges.iter_mut().zip([[1.0, 1.0], mirrored, [1.0, 1.0], mirrored]) {
+                    (gauge[velocity], gauge[component]) = (side[0] * v, side[1] * sigma);
+                }
+                let series = Series {
+                    probes: vec![Probe::default()],
+                    gauge_places: places.clone(),
+                    gauges: gauges.to_vec(),
+                    ..Series::default()
+                };
+                returning(wave, face, &series, &setting).unwrap().0[0] / sigma.abs()
+            };
+            assert!(read(away).abs() < DIGITS, "{wave:?} {face:?}: {}", read(away));
+            assert!(
+                (read(-away).abs() - 2.0).abs() < DIGITS,
+                "{wave:?} {face:?}: {}",
+                read(-away)
+            );
+        }
+    }
+}

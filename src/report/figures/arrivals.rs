@@ -2,12 +2,31 @@
 
 use super::super::tables::{path_name, wave_name};
 use super::super::{Analysed, branching};
-use crate::analysis::waves::Arrival;
+use crate::analysis::waves::{Arrival, Face, Wave};
 use crate::report::chart::{Chart, Content, Curve};
+use crate::report::palette;
 
 /// Time before the start that is shown, and after the last event, as shares of the time of that.
 const BEFORE: f64 = 0.1;
 const BEYOND: f64 = 0.4;
+
+/// Styles of the other lines: in colours that no wave has.
+const START: usize = palette::style(4, 0);
+const BRANCH: usize = palette::style(1, 1);
+
+/// One colour a wave and one dash a face, in all figures.
+fn style(arrival: &Arrival) -> usize {
+    let color = match arrival.wave {
+        Wave::Longitudinal => 2,
+        Wave::Transverse => 3,
+        Wave::Rayleigh => 5,
+    };
+    let dash = match arrival.face {
+        Face::Left => 2,
+        Face::TopAndBottom => 3,
+    };
+    palette::style(color, dash)
+}
 
 /// A chart for every case in which the crack starts, and branches or meets a wave.
 pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
@@ -19,8 +38,10 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
     let start = case.findings.initiation?.time;
     let branch = branching::after_start(case);
     let rayleigh = case.rayleigh_speed()?;
-    let arrivals = &case.findings.arrivals;
-    let last = arrivals.iter().map(Arrival::at_tip).chain(branch).reduce(f64::max)?;
+    let mut arrivals: Vec<(&Arrival, f64)> = branching::at_running_tip(case).collect();
+    arrivals.sort_by(|a, b| a.1.total_cmp(&b.1));
+    let times = arrivals.iter().map(|arrival| arrival.1);
+    let last = times.chain(branch).reduce(f64::max)?;
     let rows = case.result.series.probes.iter().zip(&case.findings.speeds);
     let shown = -BEFORE * last..(1.0 + BEYOND) * last;
     let rows = rows.filter(|(row, _)| shown.contains(&(row.time - start)));
@@ -44,15 +65,12 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
             points: speed,
             spread,
         },
-        mark(4, "start".to_owned(), 0.0),
+        mark(START, "start".to_owned(), 0.0),
     ];
-    curves.extend(branch.map(|branch| mark(1, "first branch".to_owned(), branch)));
-    let styles = [2, 3, 5, 6, 9];
-    let mut in_time: Vec<&Arrival> = arrivals.iter().collect();
-    in_time.sort_by(|a, b| a.at_tip().total_cmp(&b.at_tip()));
-    let waves = in_time.into_iter().zip(styles).map(|(arrival, style)| {
+    curves.extend(branch.map(|branch| mark(BRANCH, "first branch".to_owned(), branch)));
+    let waves = arrivals.into_iter().map(|(arrival, time)| {
         let from = path_name(arrival).replace(" faces", "").replace(" face", "");
-        mark(style, format!("{}, {from}", wave_name(arrival)), arrival.at_tip())
+        mark(style(arrival), format!("{}, {from}", wave_name(arrival)), time)
     });
     curves.extend(waves);
     Some(Chart {
@@ -62,7 +80,8 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
         title: format!("Crack speed of {}, branching and returning waves", case.name()),
         caption: "Speed of the foremost tip over the Rayleigh speed; time counts from the start of the crack. Vertical lines: \
                   its start, its first branch if it has one, and when waves sent out at the start are back at the running tip by \
-                  their speeds. The band is the standard error of the speed."
+                  their speeds; those that come after the end of the run are not shown. A wave has one colour, a face one kind of line. \
+                  The band is the standard error of the speed."
             .to_owned(),
         x: "time after the crack starts (ps)".to_owned(),
         y: "crack speed / c_R".to_owned(),

@@ -105,6 +105,20 @@ impl Quantity {
         }
     }
 
+    /// How far a value is from another in its unit; of angles, what a mirror leaves.
+    pub fn difference(self, value: f64, from: f64) -> f64 {
+        if self == Self::BranchAngle && is_mirrored(value, from) {
+            value.abs() - from.abs()
+        } else {
+            value - from
+        }
+    }
+
+    /// The same as a share; of angles and their zero nobody asks for one.
+    pub fn relative_difference(self, value: f64, from: f64) -> Option<f64> {
+        (self != Self::BranchAngle).then(|| value / from - 1.0)
+    }
+
     /// A value as a person reads it, and in brackets how far it is from another: moments and angles in their own unit, all
     /// else in percent.
     pub fn shown(self, value: f64, from: Option<f64>) -> String {
@@ -120,6 +134,7 @@ impl Quantity {
         };
         match (from, unit) {
             (None, _) => text,
+            (Some(from), Some("°")) => format!("{text} ({})", turned(value, from)),
             (Some(from), Some(unit)) => format!("{text} ({})", signed(value - from, unit)),
             (Some(from), None) => format!("{text} ({})", signed_percent(value / from - 1.0)),
         }
@@ -129,9 +144,38 @@ impl Quantity {
 /// What rounding leaves of equal moments, ps, and angles, degrees.
 const ROUNDING: f64 = 1e-9;
 
+/// How an angle differs from another: the specimen is its own mirror image in the crack plane, so a crack that turns the
+/// other way differs by a mirror and the rest, `mirrored, −3 °`.
+fn turned(value: f64, from: f64) -> String {
+    let rest = signed(Quantity::BranchAngle.difference(value, from), "°");
+    if is_mirrored(value, from) {
+        format!("mirrored, {rest}")
+    } else {
+        rest
+    }
+}
+
+fn is_mirrored(value: f64, from: f64) -> bool {
+    value * from < 0.0 && (value + from).abs() < (value - from).abs()
+}
+
 /// `+12 ps`
 pub fn signed(value: f64, unit: &str) -> String {
     let value = if value.abs() < ROUNDING { 0.0 } else { value };
     let sign = if value > 0.0 { "+" } else { "" };
     format!("{sign}{} {unit}", significant(value, 3))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_angle_to_the_other_side_differs_by_a_mirror_and_the_rest() {
+        let shown = |value, from| Quantity::BranchAngle.shown(value, Some(from));
+        assert_eq!(shown(57.0, -60.0), "57 (mirrored, −3.00 °)");
+        assert_eq!(shown(57.0, 60.0), "57 (−3.00 °)");
+        assert_eq!(shown(-62.0, 60.0), "−62 (mirrored, +2.00 °)");
+        assert_eq!(shown(-1.0, 2.0), "−1 (mirrored, −1.00 °)");
+    }
 }

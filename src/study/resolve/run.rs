@@ -20,6 +20,7 @@ pub struct CrackStops {
     crack_length: Option<At<f64>>,
     arrest: Option<At<f64>>,
     after_branch: Option<At<f64>>,
+    leaves_the_plane: Option<At<f64>>,
 }
 
 /// Nominal strain beyond which nothing holds together.
@@ -167,8 +168,9 @@ impl Check<'_> {
         let crack_length = self.size_if_given(&values.crack_length, "until.crack-length");
         let arrest = self.size_if_given(&values.arrest, "until.arrest");
         let after_branch = self.size_if_given(&values.after_branch, "until.after-branch");
-        let (strain, time, crack_length, arrest, after_branch) =
-            (strain?, time?, crack_length?, arrest?, after_branch?);
+        let leaves_the_plane = self.size_if_given(&values.leaves_the_plane, "until.leaves-the-plane");
+        let (strain, time, crack_length, arrest) = (strain?, time?, crack_length?, arrest?);
+        let (after_branch, leaves_the_plane) = (after_branch?, leaves_the_plane?);
         strain.or(time)?;
         if let Some((strain, place)) = strain
             && strain > MOST_STRAIN
@@ -186,11 +188,13 @@ impl Check<'_> {
             crack_length: value(crack_length),
             arrest: value(arrest),
             after_branch: value(after_branch),
+            leaves_the_plane: value(leaves_the_plane),
         };
         let stops = CrackStops {
             crack_length,
             arrest,
             after_branch,
+            leaves_the_plane,
         };
         Some((until, stops))
     }
@@ -198,7 +202,13 @@ impl Check<'_> {
     /// Stop conditions that speak of the crack must be able to come true, and not at once.
     pub fn stops(&self, stops: CrackStops, crack: Option<&At<Crack>>, specimen: &SpecimenAt) {
         let Some((crack, given)) = crack else {
-            for (_, place) in [stops.crack_length, stops.arrest, stops.after_branch].iter().flatten() {
+            let waits = [
+                stops.crack_length,
+                stops.arrest,
+                stops.after_branch,
+                stops.leaves_the_plane,
+            ];
+            for (_, place) in waits.iter().flatten() {
                 let message = "this waits for a crack, and the case has none";
                 self.add(Finding::at(*place, message).help("give a `crack`, or stop at a strain or a time"));
             }

@@ -5,7 +5,7 @@ use cgaft::analysis::series::{Series, Setting};
 use cgaft::analysis::waves::{Arrival, Face, Wave};
 
 use super::{EXACT, findings};
-use crate::suite::synthetic::{breaks, series, setting, straight};
+use crate::suite::synthetic::{SPACING, breaks, series, setting, straight};
 
 #[test]
 fn waves_come_back_after_their_path_over_their_speed() {
@@ -98,9 +98,51 @@ fn a_wave_from_the_left_needs_longer_to_a_tip_that_runs_on() {
     let arrival = findings.arrivals.iter().find(left).unwrap();
     let met = arrival.at_running_tip.unwrap();
     let start = findings.initiation.unwrap();
-    let probe = start.probe + met.round() as usize;
-    let way = findings.tips[0].x + findings.tips[probe].x;
-    // Probes are 1 ps apart.
-    assert!((met - way / setting.longitudinal_speed).abs() <= 1.0, "{arrival:?}");
+    // The wave runs at c from the notch to the left edge and on after the tip, which runs at two spacings a ps: the way from
+    // the notch to the tip at the start is behind it already.
+    let way = findings.tips[0].x + findings.tips[start.probe].x;
+    let expected = way / (setting.longitudinal_speed - 2.0 * SPACING);
+    assert!((met / expected - 1.0).abs() < EXACT, "{met} instead of {expected}");
     assert!(met > arrival.predicted);
+}
+
+#[test]
+fn a_wave_from_the_grips_meets_the_running_tip_aslant() {
+    let setting = setting();
+    let findings = analyse(&waves(&setting, |_| 0.0), &setting);
+    let from_grips = |arrival: &&Arrival| (arrival.wave, arrival.face) == (Wave::Transverse, Face::TopAndBottom);
+    let met = findings
+        .arrivals
+        .iter()
+        .find(from_grips)
+        .unwrap()
+        .at_running_tip
+        .unwrap();
+    // (c t)^2 = H^2 + (d + v t)^2 with the tip at d at the start; the tip is told between probes 1 ps apart.
+    const BETWEEN_PROBES: f64 = 2e-3;
+    let [c, v, h] = [setting.transverse_speed, 2.0 * SPACING, setting.height];
+    let d = findings.tips[findings.initiation.unwrap().probe].x - findings.tips[0].x;
+    let expected = (d * v + (d * d * v * v + (c * c - v * v) * (h * h + d * d)).sqrt()) / (c * c - v * v);
+    assert!(
+        (met / expected - 1.0).abs() < BETWEEN_PROBES,
+        "{met} instead of {expected}"
+    );
+}
+
+#[test]
+fn waves_of_one_path_come_in_the_order_of_their_speeds_or_not_at_all() {
+    let setting = setting();
+    let findings = analyse(&waves(&setting, |_| 0.0), &setting);
+    let order = [Wave::Longitudinal, Wave::Transverse, Wave::Rayleigh];
+    for face in [Face::Left, Face::TopAndBottom] {
+        let times = order.map(|wave| {
+            let mut arrivals = findings.arrivals.iter();
+            arrivals
+                .find(|arrival| (arrival.wave, arrival.face) == (wave, face))?
+                .at_running_tip
+        });
+        // What does not come before the end of the run is later than all that does.
+        let times = times.map(|time| time.unwrap_or(f64::INFINITY));
+        assert!(times.is_sorted(), "{face:?}: {times:?}");
+    }
 }
