@@ -18,6 +18,7 @@ mod run;
 mod schema;
 mod slurm_job;
 pub mod solve;
+mod specimen;
 mod status;
 mod survey;
 mod terminal;

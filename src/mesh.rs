@@ -60,7 +60,7 @@ impl Mesh {
         let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
         let owners = Owners::new(&sites, &elements, triangles);
-        let mut mesh = Self {
+        let mesh = Self {
             sites,
             elements,
             triangles,
@@ -69,8 +69,13 @@ impl Mesh {
             spacing: plan.spacing,
             grip_rows: plan.grip_rows,
         };
-        mesh.cut = plan.crack.map(|crack| crack.cut(&mesh));
-        mesh
+        mesh.with_crack(plan.crack)
+    }
+
+    /// The same elements with this crack: none of them minds it.
+    pub fn with_crack(mut self, crack: Option<Crack>) -> Self {
+        self.cut = crack.map(|crack| crack.cut(&self));
+        self
     }
 
     pub fn node_count(&self) -> usize {

@@ -3,7 +3,7 @@ use serde_json::json;
 use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
-use super::{CliError, format};
+use super::{CliError, format, specimen};
 use crate::setup::Estimate;
 
 /// `cgaft study check FILE`
@@ -17,10 +17,16 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         .zip(&estimates)
         .collect();
     let cases: Vec<_> = sized.iter().map(|(name, estimate)| to_json(name, estimate)).collect();
-    let warnings: Vec<String> = sized
+    let laid: Vec<_> = plan
+        .cases
+        .iter()
+        .zip(estimates.iter().map(|estimate| &estimate.specimen))
+        .collect();
+    let mut warnings: Vec<String> = sized
         .iter()
         .filter_map(|(name, estimate)| warning(name, estimate))
         .collect();
+    warnings.extend(specimen::warnings(&laid));
     let json = json!({ "study": plan.study, "cases": cases, "warnings": warnings });
     let terminal = Terminal {
         quiet: false,
@@ -29,10 +35,14 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
     terminal.result(&json, || {
         let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
         rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));
+        let mut specimens = vec![specimen::HEAD.map(str::to_owned).to_vec()];
+        specimens.extend(laid.iter().map(|(planned, laid)| specimen::row(&planned.name, laid)));
         let total: f64 = estimates.iter().map(|estimate| estimate.seconds).sum();
         format!(
-            "{}\n{NOTES}\n{}{}: no mistakes; {}, about {} on one core\n",
+            "{}\n{NOTES}\n{}\n{}\n{}{}: no mistakes; {}, about {} on one core\n",
             format::table(&rows),
+            format::table(&specimens),
+            specimen::NOTES,
             warnings
                 .iter()
                 .map(|warning| format!("{warning}\n"))
@@ -46,16 +56,14 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
 }
 
 /// What the heads of the columns have no room for.
-const NOTES: &str = "left over: share of the atoms in smaller elements than asked for, because no larger one fits there
-disk: pictures and checkpoint, at most; about: wall time on one core
+const NOTES: &str = "disk: pictures and checkpoint, at most; about: wall time on one core
 ";
 
-const HEAD: [&str; 10] = [
+const HEAD: [&str; 9] = [
     "case",
     "nodes",
     "elements",
     "atoms",
-    "left over",
     "steps",
     "time step / limit",
     "memory",
@@ -83,7 +91,6 @@ fn row(name: &str, estimate: &Estimate) -> Vec<String> {
         estimate.nodes.to_string(),
         estimate.elements.to_string(),
         estimate.represented_atoms.to_string(),
-        estimate.leftover_share.map_or_else(|| "-".to_owned(), format::share),
         estimate.steps.to_string(),
         format!(
             "{:.3} / {:.3} fs",
@@ -102,7 +109,8 @@ fn to_json(name: &str, estimate: &Estimate) -> serde_json::Value {
         "nodes": estimate.nodes,
         "elements": estimate.elements,
         "represented_atoms": estimate.represented_atoms,
-        "leftover_share": estimate.leftover_share,
+        "leftover_share": estimate.specimen.leftovers.map(|leftovers| leftovers.share()),
+        "specimen": specimen::to_json(&estimate.specimen),
         "steps": estimate.steps,
         "time_step_ps": estimate.time_step,
         "stability_limit_ps": estimate.stability_limit,

@@ -9,7 +9,7 @@ use super::estimate::estimates;
 use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
 use super::terminal::Terminal;
-use super::{CliError, cluster, format, plan, report};
+use super::{CliError, cluster, format, plan, report, specimen};
 use crate::executor::share::{Crew, Demand, Share, share};
 use crate::executor::{self, Ending, Errand, ExecutorError, Job, Settings, Stop, exit, launch, mpi, slurm};
 use crate::plan::{self as planning, PlannedCase};
@@ -131,6 +131,8 @@ pub struct Prepared {
     pub share: Share,
     /// Of this machine.
     pub cores: usize,
+    /// Cases among them that are one computation.
+    pub warnings: Vec<String>,
 }
 
 /// Every chosen case that is not done, once each.
@@ -148,6 +150,8 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         .map(|entry| with_ranks(&entry.planned, arguments))
         .collect();
     let estimates = estimates(&survey.plan, &asked)?;
+    let laid: Vec<_> = asked.iter().zip(estimates.iter().map(|estimate| &estimate.specimen)).collect();
+    let warnings = specimen::one_computation(&laid);
     let now = Timestamp::now();
     let job = |(entry, estimate): (&Entry, &Estimate)| Job {
         name: entry.planned.name.clone(),
@@ -165,7 +169,12 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
     // Cases side by side would disturb each other's time.
     let alone = survey.plan.compares_crews().then_some(1);
     let share = share(&demands, cores, arguments.crew.jobs.map(usize::from).or(alone));
-    Ok(Prepared { jobs, share, cores })
+    Ok(Prepared {
+        jobs,
+        share,
+        cores,
+        warnings,
+    })
 }
 
 /// Where cases are compared by their ranks or threads, one number for all would make them other cases.
@@ -244,6 +253,7 @@ fn tell_plan(survey: &Survey, chosen: &[usize], prepared: &Prepared, arguments: 
             _ => format!("{}: runs ({reason})", planned.name),
         });
     }
+    prepared.warnings.iter().for_each(|warning| terminal.say(warning));
     if !prepared.jobs.is_empty() {
         terminal.say(&match arguments.on {
             On::Local => prepared.summary(),

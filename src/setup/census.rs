@@ -1,7 +1,9 @@
 //! How many elements of each size a specimen has.
 
+use std::hash::{DefaultHasher, Hash, Hasher};
+
+use super::leftovers::Leftovers;
 use crate::lattice::triangular;
-use crate::mesh::element::Element;
 use crate::mesh::region::Shape;
 use crate::mesh::{Mesh, Plan};
 
@@ -11,12 +13,14 @@ pub struct Census {
     /// Size (1: atom) and number, by falling size.
     pub elements: Vec<(i32, f64)>,
     pub sites: u64,
-    /// Share of the sites in elements smaller than asked for; `None` where nobody has laid the elements.
-    pub leftover_share: Option<f64>,
+    /// Sites in elements smaller than asked for; `None` where nobody has laid the elements.
+    pub leftovers: Option<Leftovers>,
+    /// Tells meshes apart.
+    pub fingerprint: u64,
 }
 
 /// Specimens with more sites than this are not meshed to be counted.
-const MESHED: u64 = 30_000_000;
+pub const MESHED: u64 = 30_000_000;
 
 /// What a process takes that computes hardly anything, and what an atom and a triangle add to it. Fitted to the peaks of
 /// models A to E of Deng (2011), 99 to 257 MB, and of 1.8 million atoms, 397 MB.
@@ -25,18 +29,8 @@ const BYTES_AN_ATOM: f64 = 200.0;
 const BYTES_A_TRIANGLE: f64 = 1250.0;
 
 impl Census {
-    /// Counts the elements of a mesh, or in a specimen too large to be meshed for a question those that its area has
-    /// room for.
-    pub fn of(plan: &Plan) -> Self {
-        if plan.layout.site_count() > MESHED {
-            Self::by_area(plan)
-        } else {
-            Self::counted(plan)
-        }
-    }
-
-    fn counted(plan: &Plan) -> Self {
-        let mesh = Mesh::new(plan);
+    /// Counts the elements of a mesh.
+    pub fn counted(plan: &Plan, mesh: &Mesh) -> Self {
         let mut elements: Vec<(i32, f64)> = Vec::new();
         for element in &mesh.elements {
             match elements.last_mut() {
@@ -44,13 +38,11 @@ impl Census {
                 _ => elements.push((element.size, 1.0)),
             }
         }
-        let wanted: Vec<i32> = sizes(plan);
-        let leftover = mesh.elements.iter().filter(|element| !wanted.contains(&element.size));
-        let leftover = leftover.map(Element::site_count).sum::<usize>() as f64 / mesh.sites.len() as f64;
         Self {
             elements,
             sites: mesh.sites.len() as u64,
-            leftover_share: Some(leftover),
+            leftovers: Some(Leftovers::of(plan, mesh)),
+            fingerprint: fingerprint(&mesh.elements),
         }
     }
 
@@ -83,7 +75,8 @@ impl Census {
         Self {
             elements,
             sites,
-            leftover_share: None,
+            leftovers: None,
+            fingerprint: fingerprint(format!("{:?} {:?}", plan.element, plan.regions)),
         }
     }
 
@@ -110,10 +103,10 @@ impl Census {
     }
 }
 
-/// The sizes that a plan asks for.
-fn sizes(plan: &Plan) -> Vec<i32> {
-    let regions = plan.regions.iter().map(|region| i32::from(region.element));
-    regions.chain([i32::from(plan.element)]).collect()
+fn fingerprint(of: impl Hash) -> u64 {
+    let mut hasher = DefaultHasher::new();
+    of.hash(&mut hasher);
+    hasher.finish()
 }
 
 #[cfg(test)]
@@ -142,7 +135,7 @@ mod tests {
             grip_rows: 10,
             spacing: 0.25,
         };
-        let [counted, by_area] = [Census::counted(&plan), Census::by_area(&plan)];
+        let [counted, by_area] = [Census::counted(&plan, &Mesh::new(&plan)), Census::by_area(&plan)];
         assert_eq!(counted.sites, by_area.sites);
         let ratio = by_area.node_count() as f64 / counted.node_count() as f64;
         assert!((0.9..1.1).contains(&ratio), "{ratio}");

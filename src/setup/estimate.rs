@@ -1,6 +1,8 @@
 //! What a case will cost, before anything is computed.
 
-use super::census::Census;
+use super::census::{Census, MESHED};
+use super::geometry::{self, Geometry, Notch};
+use super::leftovers::Leftovers;
 use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching};
@@ -17,9 +19,7 @@ pub struct Estimate {
     pub nodes: u64,
     pub elements: u64,
     pub represented_atoms: u64,
-    /// Share of the sites that are smaller elements than asked for, because no larger one fits there.
-    /// `None` where the specimen is too large to be meshed for this question.
-    pub leftover_share: Option<f64>,
+    pub specimen: Specimen,
     /// ps
     pub time_step: f64,
     /// Largest stable time step, ps.
@@ -31,6 +31,16 @@ pub struct Estimate {
     pub disk_bytes: u64,
     /// Wall time on one thread, s.
     pub seconds: f64,
+}
+
+/// A specimen as it is laid out.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Specimen {
+    pub geometry: Geometry,
+    /// `None` where the specimen is too large to be meshed for this question.
+    pub leftovers: Option<Leftovers>,
+    /// Equal for cases that are one computation, however they were asked for.
+    pub computation: u64,
 }
 
 /// Seconds on one core of a 2.6 GHz EPYC: to start and to publish a run, of a probe whatever the specimen (the fields around
@@ -57,6 +67,8 @@ pub struct Estimator {
     crystals: Vec<(case::Material, Material)>,
     /// Meshes without their cracks, which no element minds.
     meshes: Vec<(Plan, Census)>,
+    /// The last one that was made.
+    last: Option<(Plan, Mesh)>,
     /// Stability limits, ps, of elements of one size.
     limits: Vec<(Crystal, f64)>,
 }
@@ -76,9 +88,17 @@ impl Estimator {
         let material = self.material(case)?;
         let plan = mesh_plan(case, &material)?;
         refuse_what_does_not_fit(&plan, ranks(case))?;
-        let census = self.census(plan);
+        let (specimen, census) = self.lay_out(case, &plan);
         let stability_limit = self.stability_limit(case, &census, &material)?;
-        estimate_with(case, &material, &census, stability_limit)
+        estimate_with(case, &material, specimen, &census, stability_limit)
+    }
+
+    /// The specimen of a case; an error is that of [`Self::estimate`].
+    pub fn specimen(&mut self, case: &Case) -> Result<Specimen, SetupError> {
+        let material = self.material(case)?;
+        let plan = mesh_plan(case, &material)?;
+        refuse_what_does_not_fit(&plan, 1)?;
+        Ok(self.lay_out(case, &plan).0)
     }
 
     fn material(&mut self, case: &Case) -> Result<Material, SetupError> {
@@ -90,16 +110,49 @@ impl Estimator {
         Ok(found)
     }
 
-    fn census(&mut self, plan: Plan) -> Census {
-        let plan = Plan { crack: None, ..plan };
-        match self.meshes.iter().find(|(known, _)| *known == plan) {
-            Some((_, census)) => census.clone(),
-            None => {
-                let census = Census::of(&plan);
-                self.meshes.push((plan, census.clone()));
+    fn lay_out(&mut self, case: &Case, plan: &Plan) -> (Specimen, Census) {
+        let census = self.census(plan);
+        let is_meshed = plan.layout.site_count() <= MESHED;
+        let notch = plan.crack.filter(|_| is_meshed).and_then(|crack| {
+            let mesh = self.mesh(plan).with_crack(Some(crack));
+            let notch = Notch::of(case, &mesh);
+            self.last = Some((bare(plan), mesh.with_crack(None)));
+            notch
+        });
+        let specimen = Specimen {
+            geometry: Geometry::of(case, plan, notch),
+            leftovers: census.leftovers,
+            computation: geometry::computation(case, plan, census.fingerprint, notch.as_ref()),
+        };
+        (specimen, census)
+    }
+
+    /// Counts the elements of a mesh, or in a specimen too large to be meshed for a question those that its area has
+    /// room for.
+    fn census(&mut self, plan: &Plan) -> Census {
+        let bare = bare(plan);
+        if let Some((_, census)) = self.meshes.iter().find(|(known, _)| *known == bare) {
+            return census.clone();
+        }
+        let census = match plan.layout.site_count() {
+            ..=MESHED => {
+                let mesh = self.mesh(plan);
+                let census = Census::counted(&bare, &mesh);
+                self.last = Some((bare.clone(), mesh));
                 census
             }
-        }
+            _ => Census::by_area(&bare),
+        };
+        self.meshes.push((bare, census.clone()));
+        census
+    }
+
+    /// The mesh of a plan without its crack, taken from what was made last if that is it.
+    fn mesh(&mut self, plan: &Plan) -> Mesh {
+        let bare = bare(plan);
+        // What is kept of another plan goes before memory is taken for this one.
+        let last = self.last.take().filter(|(known, _)| *known == bare);
+        last.map_or_else(|| Mesh::new(&bare), |(_, mesh)| mesh)
     }
 
     /// The stability limit of the perfect crystal in this mesh, ps. The bound goes element by element, so each size is
@@ -129,9 +182,17 @@ impl Estimator {
     }
 }
 
+fn bare(plan: &Plan) -> Plan {
+    Plan {
+        crack: None,
+        ..plan.clone()
+    }
+}
+
 fn estimate_with(
     case: &Case,
     material: &Material,
+    specimen: Specimen,
     census: &Census,
     stability_limit: f64,
 ) -> Result<Estimate, SetupError> {
@@ -162,7 +223,7 @@ fn estimate_with(
         nodes: census.node_count(),
         elements: census.element_count(),
         represented_atoms: census.sites,
-        leftover_share: census.leftover_share,
+        specimen,
         time_step,
         stability_limit,
         steps,

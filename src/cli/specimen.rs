@@ -1,0 +1,196 @@
+//! What becomes of specimens when they are laid out of whole elements, in words.
+
+use serde_json::{Value, json};
+
+use super::format;
+use crate::mesh::cut::NotchEnd;
+use crate::plan::PlannedCase;
+use crate::setup::{Leftovers, Size, Specimen};
+
+pub const HEAD: [&str; 9] = [
+    "case",
+    "length",
+    "width",
+    "between grips",
+    "crack",
+    "notch ends",
+    "grips",
+    "grip speed",
+    "left over",
+];
+
+/// What the heads of the columns have no room for.
+pub const NOTES: &str = "as laid out of whole elements, in nm, and in brackets what was asked for where that is another
+left over: share of the atoms in smaller elements than asked for, because no larger one fits there
+";
+
+/// Differences from what was asked for beyond this share are told.
+const NOTABLE: f64 = 0.01;
+
+/// More of the atoms in smaller elements than asked for make it another mesh than the one asked for.
+const MANY_LEFTOVERS: f64 = 0.1;
+
+/// Cases that are told together by name; the others are counted.
+const MOST_NAMED: usize = 4;
+
+/// A case and its specimen.
+pub type Laid<'a> = (&'a PlannedCase, &'a Specimen);
+
+pub fn row(name: &str, specimen: &Specimen) -> Vec<String> {
+    let geometry = &specimen.geometry;
+    let notch = geometry.notch;
+    vec![
+        name.to_owned(),
+        size(geometry.length),
+        size(geometry.width),
+        size(geometry.height),
+        notch.map_or_else(|| "-".to_owned(), |notch| size(notch.length)),
+        notch.map_or("-", |notch| end(notch.end)).to_owned(),
+        digits(geometry.grip_thickness),
+        format!("{} m/s", digits(geometry.grip_speed * METRES_PER_SECOND)),
+        specimen.leftovers.map_or_else(|| "-".to_owned(), |leftovers| left_over(&leftovers)),
+    ]
+}
+
+/// nm/ps in m/s.
+pub const METRES_PER_SECOND: f64 = crate::units::NM_PER_PS_IN_M_PER_S;
+
+pub fn to_json(specimen: &Specimen) -> Value {
+    let geometry = &specimen.geometry;
+    let pair = |size: Size| json!({ "asked": size.asked, "actual": size.actual });
+    let places = specimen.leftovers.map(|leftovers| {
+        let places = leftovers.by_share().into_iter();
+        places.map(|(place, share)| json!({ "where": place, "share": share })).collect::<Vec<Value>>()
+    });
+    json!({
+        "length_nm": pair(geometry.length),
+        "width_nm": pair(geometry.width),
+        "height_between_grips_nm": pair(geometry.height),
+        "crack_nm": geometry.notch.map(|notch| pair(notch.length)),
+        "notch_end": geometry.notch.map(|notch| end(notch.end)),
+        "grip_thickness_nm": geometry.grip_thickness,
+        "grip_speed_m_per_s": geometry.grip_speed * METRES_PER_SECOND,
+        "leftovers": places,
+    })
+}
+
+/// Where a notch ends.
+pub fn end(end: NotchEnd) -> &'static str {
+    match end {
+        NotchEnd::Corner => "corner",
+        NotchEnd::WithinEdge => "within an edge",
+        NotchEnd::Atoms => "atoms",
+    }
+}
+
+/// What is to be known of specimens that are not what was asked for. What several cases have in common is told once.
+pub fn warnings(cases: &[Laid]) -> Vec<String> {
+    let mut told: Vec<(String, Vec<&str>)> = Vec::new();
+    for (planned, specimen) in cases {
+        let own = [sizes_warning(specimen), leftover_warning(specimen)];
+        for text in own.into_iter().flatten() {
+            match told.iter_mut().find(|(known, _)| *known == text) {
+                Some((_, names)) => names.push(&planned.name),
+                None => told.push((text, vec![&planned.name])),
+            }
+        }
+    }
+    let told = told.iter().map(|(text, names)| format!("warning: {}: {text}", listed(names)));
+    told.chain(one_computation(cases)).collect()
+}
+
+/// The cases that are computed on one mesh with one notch and are loaded alike.
+pub fn one_computation(cases: &[Laid]) -> Vec<String> {
+    let mut groups: Vec<((u64, Option<u32>, Option<u32>), Vec<&str>)> = Vec::new();
+    for (planned, specimen) in cases {
+        let key = (specimen.computation, planned.id.ranks, planned.id.threads);
+        match groups.iter_mut().find(|(known, _)| *known == key) {
+            Some((_, names)) => names.push(&planned.name),
+            None => groups.push((key, vec![&planned.name])),
+        }
+    }
+    let several = groups.iter().filter(|(_, names)| names.len() > 1);
+    several
+        .map(|(_, names)| {
+            format!(
+                "warning: {}: one computation under several names; mesh, notch and loading are the same, and nothing can \
+                 differ between them",
+                listed(names)
+            )
+        })
+        .collect()
+}
+
+fn sizes_warning(specimen: &Specimen) -> Option<String> {
+    let sizes = specimen.geometry.sizes().into_iter();
+    let off: Vec<String> = sizes
+        .filter(|(_, size)| size.error().abs() > NOTABLE)
+        .map(|(name, size)| {
+            format!("the {name} is {} nm instead of {} nm", digits(size.actual), digits(size.asked))
+        })
+        .collect();
+    (!off.is_empty()).then(|| format!("laid out of whole elements, {}", off.join(", ")))
+}
+
+fn leftover_warning(specimen: &Specimen) -> Option<String> {
+    let leftovers = specimen.leftovers.filter(|leftovers| leftovers.share() > MANY_LEFTOVERS)?;
+    Some(format!(
+        "{} of the atoms are in smaller elements than asked for ({}): take smaller elements, a larger specimen, or a \
+         `specimen.block` that they fit",
+        format::share(leftovers.share()),
+        left_over(&leftovers)
+    ))
+}
+
+/// `none`, `4.2 % at the grips, 0.6 % at the right face`.
+pub fn left_over(leftovers: &Leftovers) -> String {
+    let places = leftovers.by_share();
+    if places.is_empty() {
+        return format::share(0.0);
+    }
+    let place = |(place, share): (&str, f64)| format!("{} {place}", format::share(share));
+    places.into_iter().map(place).collect::<Vec<_>>().join(", ")
+}
+
+/// `115.3 (115)`; alone where that is what was asked for.
+fn size(size: Size) -> String {
+    let [asked, actual] = [size.asked, size.actual].map(digits);
+    if asked == actual { actual } else { format!("{actual} ({asked})") }
+}
+
+/// Four digits, no trailing zeros.
+fn digits(value: f64) -> String {
+    let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 6) as usize;
+    let text = format!("{value:.decimals$}");
+    match text.contains('.') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+fn listed(names: &[&str]) -> String {
+    let (named, others) = names.split_at(names.len().min(MOST_NAMED));
+    match others.len() {
+        0 => named.join(", "),
+        more => format!("{} and {} more", named.join(", "), more),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_have_four_digits_and_no_empty_ones() {
+        assert_eq!(digits(26.7812), "26.78");
+        assert_eq!(digits(115.0), "115");
+        assert_eq!(digits(1127.4), "1127");
+        assert_eq!(digits(0.2277), "0.2277");
+    }
+
+    #[test]
+    fn many_cases_are_told_with_the_names_of_a_few() {
+        assert_eq!(listed(&["a", "b"]), "a, b");
+        assert_eq!(listed(&["a", "b", "c", "d", "e", "f"]), "a, b, c, d and 2 more");
+    }
+}
