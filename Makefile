@@ -5,7 +5,7 @@ TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
 # What a solver of several ranks is built and started with.
 MPI_PACKAGES = libopenmpi-dev openmpi-bin $(shell .ci/libclang)
 # The studies of chapter 5 of Deng (2011).
-CHAPTER_5 = models-A-E models-A-E-mixed models-A-E-atoms case-1 case-2 branching-control convergence-D
+CHAPTER_5 = models-A-E models-A-E-fine models-A-E-mixed models-A-E-atoms case-1 case-2 branching-control convergence-D
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
@@ -19,7 +19,7 @@ help:
 	@echo 'make bench        what a step, a run and a command cost on this machine, beside LAMMPS; writes docs/performance.md'
 	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
 	@echo 'make models-A-E   models A to E of Deng (2011) at full size; writes reports/models-A-E'
-	@echo 'make chapter-5    the same, then mixed, in atoms (D alone), cases 1 and 2, branching-control and convergence-D, each also by its name'
+	@echo 'make chapter-5    the same, then in small elements, mixed, in atoms (D alone), cases 1 and 2, branching-control and convergence-D, each also by its name'
 	@echo 'make scaling      what ranks gain here, and what more of them would; writes reports/scaling-fixed and reports/scaling-scaled'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'

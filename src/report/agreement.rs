@@ -3,7 +3,7 @@
 use super::numbers::{signed_percent, significant};
 use super::tables::Table;
 use super::toughness::{self, Definition};
-use super::{Analysed, branching, expected};
+use super::{Analysed, branching, events, expected};
 use crate::plan::Comparison;
 
 /// A topic and what is found.
@@ -15,6 +15,7 @@ pub fn notes(cases: &[Analysed], comparisons: &[Comparison], tables: &[Table]) -
         ("Counts", counts(comparisons, tables)),
         ("Stress intensity", stress_intensity(cases, comparisons)),
         ("First branch", first_branch(cases, comparisons)),
+        ("Leaving the plane", leaving_the_plane(cases, comparisons)),
         ("Waves before the first branch", waves(cases)),
         ("Arrivals", arrivals(cases, comparisons)),
         ("Arrivals not measured", not_measured(cases)),
@@ -102,26 +103,48 @@ fn one_factor(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> 
 }
 
 fn first_branch(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    beside_the_pictures(
+        cases,
+        comparisons,
+        branching::after_start,
+        "no branch up to the end of the run",
+    )
+}
+
+/// The source calls branching what it sees in its pictures, and a crack that turns aside looks alike there.
+fn leaving_the_plane(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    beside_the_pictures(
+        cases,
+        comparisons,
+        events::leaves_after_start,
+        "in its plane up to the end of the run",
+    )
+}
+
+/// When something happens to each crack, ps after its start, beside the pictures between which the source saw it branch.
+fn beside_the_pictures(
+    cases: &[Analysed],
+    comparisons: &[Comparison],
+    after_start: impl Fn(&Analysed) -> Option<f64>,
+    never: &str,
+) -> Option<String> {
     let line = |case: &Analysed| {
         let [Some(from), Some(to)] = branching::reference(case, comparisons) else {
             return None;
         };
         case.findings.initiation?;
         let source = format!("the source between {from:.0} and {to:.0} ps");
-        Some(match branching::after_start(case) {
+        Some(match after_start(case) {
             Some(time) => {
-                let verdict = match time {
+                let order = match time {
                     _ if time < from => "earlier than",
                     _ if time > to => "later than",
                     _ => "as in",
                 };
-                format!(
-                    "{}: {} ps after the crack starts, {verdict} {source}",
-                    case.name(),
-                    significant(time, 3)
-                )
+                let time = significant(time, 3);
+                format!("{}: {time} ps after the crack starts, {order} {source}", case.name())
             }
-            None => format!("{}: no branch up to the end of the run; {source}", case.name()),
+            None => format!("{}: {never}; {source}", case.name()),
         })
     };
     let lines: Vec<String> = cases.iter().filter_map(line).collect();

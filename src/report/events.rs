@@ -35,12 +35,9 @@ pub fn columns(rows: &Rows<&Analysed>) -> Vec<Column> {
 /// Columns of the table `first_branch`, beside those of the branch.
 pub fn leaving_columns(rows: &Rows<&Analysed>) -> Vec<Column> {
     let left = |case: &&Analysed| case.findings.leaves_plane;
-    let after = |case: &&Analysed, time: fn(LeavesPlane) -> f64| {
-        Some(time(case.findings.leaves_plane?) - case.findings.initiation?.time)
-    };
     vec![
         rows.number("leaves_plane_time_ps", |case| left(case).map(|left| left.time)),
-        rows.number("leaves_plane_after_start_ps", |case| after(case, |left| left.time)),
+        rows.number("leaves_plane_after_start_ps", |case| leaves_after_start(case)),
         rows.number("leaves_plane_strain", |case| left(case).map(|left| left.strain)),
         rows.number("leaves_plane_x_nm", |case| left(case).map(|left| left.x)),
         rows.number("leaves_plane_y_nm", |case| left(case).map(|left| left.y)),
@@ -48,6 +45,15 @@ pub fn leaving_columns(rows: &Rows<&Analysed>) -> Vec<Column> {
             after(case, |left| left.first_off_time)
         }),
     ]
+}
+
+/// Time after the start of the crack at which it leaves its plane, ps.
+pub fn leaves_after_start(case: &Analysed) -> Option<f64> {
+    after(case, |left| left.time)
+}
+
+fn after(case: &Analysed, time: fn(LeavesPlane) -> f64) -> Option<f64> {
+    Some(time(case.findings.leaves_plane?) - case.findings.initiation?.time)
 }
 
 /// The table `joins`: where the tip was and stands now, and what parted the two cracks.

@@ -71,7 +71,7 @@ pub fn lines<'a>(comparison: &'a Comparison, tables: &[Table]) -> Vec<Line<'a>> 
     };
     let columns = |expected: &Expected| match expected.column {
         "reference_ps" => vec!["predicted_ps", "at_running_tip_ps", "measured_ps"],
-        "reference_from_ps" | "reference_to_ps" => vec!["after_start_ps"],
+        "reference_from_ps" | "reference_to_ps" => vec!["after_start_ps", "leaves_plane_after_start_ps"],
         "k_ic_reference_mpa_sqrt_m" => Definition::ALL.map(Definition::column).to_vec(),
         own => vec![own],
     };

@@ -55,6 +55,20 @@ pub fn speed(share: f64) -> [u8; 3] {
     blend(&SPEED, share)
 }
 
+/// Stops of the scale of moments, early to late; all dark enough to be seen on white, and ever lighter in grey.
+const MOMENT: [[f64; 3]; 5] = [
+    [36.0, 14.0, 84.0],
+    [22.0, 78.0, 142.0],
+    [26.0, 128.0, 126.0],
+    [92.0, 168.0, 74.0],
+    [226.0, 178.0, 44.0],
+];
+
+/// Colour of a moment between the first (0) and the last (1).
+pub fn moment(place: f64) -> [u8; 3] {
+    blend(&MOMENT, place)
+}
+
 /// Colour at a place between 0 and 1 along the stops.
 fn blend(stops: &[[f64; 3]], place: f64) -> [u8; 3] {
     let last = stops.len() - 1;

@@ -4,6 +4,7 @@ pub mod animation;
 mod drawing;
 mod indexed;
 mod margins;
+mod path;
 mod scale;
 mod shade;
 
@@ -65,6 +66,7 @@ pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> R
         Shade::Stress,
         folder,
     )?);
+    galleries.push(path::gallery(cases, folder)?);
     galleries.retain(|gallery| !gallery.pictures.is_empty());
     Ok(galleries)
 }
@@ -72,7 +74,7 @@ pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> R
 /// Whether a report may have drawn a file of this name.
 pub fn is_of_a_report(name: &str) -> bool {
     let number = |start: &str| name.strip_prefix(start).and_then(|rest| rest.strip_suffix(".png"));
-    ["slab-", "stage-", "branch-"]
+    ["slab-", "stage-", "branch-", "path-"]
         .iter()
         .any(|start| number(start).is_some_and(numbers::is_index))
         || name == animation::FILE

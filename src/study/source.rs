@@ -28,7 +28,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 12] = [
+pub static SHIPPED: [Shipped; 13] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml", "case-1/strains.csv"),
@@ -42,6 +42,13 @@ pub static SHIPPED: [Shipped; 12] = [
         "models-A-E/table-5-3.csv"
     ),
     shipped!("models-A-E-small.yaml"),
+    shipped!(
+        "models-A-E-fine.yaml",
+        "models-A-E/strains.csv",
+        "models-A-E/table-5-2.csv",
+        "models-A-E/branching.csv",
+        "models-A-E/table-5-3.csv"
+    ),
     shipped!(
         "models-A-E-mixed.yaml",
         "models-A-E/table-5-2.csv",
