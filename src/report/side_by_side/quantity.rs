@@ -175,7 +175,7 @@ mod tests {
         let shown = |value, from| Quantity::BranchAngle.shown(value, Some(from));
         assert_eq!(shown(57.0, -60.0), "57 (mirrored, −3.00 °)");
         assert_eq!(shown(57.0, 60.0), "57 (−3.00 °)");
-        assert_eq!(shown(-62.0, 60.0), "−62 (mirrored, +2.00 °)");
-        assert_eq!(shown(-1.0, 2.0), "−1 (mirrored, −1.00 °)");
+        assert_eq!(shown(-62.0, 60.0), "−62.00 (mirrored, +2.00 °)");
+        assert_eq!(shown(-1.0, 2.0), "−1.000 (mirrored, −1.00 °)");
     }
 }
