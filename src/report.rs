@@ -2,6 +2,7 @@
 
 mod agreement;
 mod ahead;
+mod beware;
 mod branching;
 mod chart;
 mod expected;

@@ -41,11 +41,12 @@ fn nine_digits(squared_frequency: f64) -> f64 {
 }
 
 impl TimeStep {
-    /// The time step at the start.
-    pub fn choose(self, limit: f64) -> Result<f64, SolverError> {
+    /// The time step at the start, where the motion of the grips allows none longer than `longest`, ps.
+    pub fn choose(self, limit: f64, longest: f64) -> Result<f64, SolverError> {
         match self {
-            Self::Auto { fraction } => Ok(fraction * limit),
+            Self::Auto { fraction } => Ok(longest.min(fraction * limit)),
             Self::Given(given) if given > limit => Err(SolverError::StepTooLong { given, limit }),
+            Self::Given(given) if given > longest => Err(SolverError::OutrunByGrips { given, longest }),
             Self::Given(given) => Ok(given),
         }
     }
@@ -76,11 +77,17 @@ mod tests {
     #[test]
     fn a_given_step_is_never_above_the_limit_and_an_automatic_one_only_shrinks() {
         let given = TimeStep::Given(0.2);
-        let refused = given.choose(0.1);
+        let refused = given.choose(0.1, 1.0);
         assert_eq!(refused, Err(SolverError::StepTooLong { given: 0.2, limit: 0.1 }));
+        let [given_step, longest] = [0.2, 0.15];
+        let outrun = SolverError::OutrunByGrips {
+            given: given_step,
+            longest,
+        };
+        assert_eq!(given.choose(0.3, longest), Err(outrun));
         assert_eq!([given.adapt(0.2, 0.3), given.adapt(0.2, 0.1)], [Some(0.2), None]);
         let auto = TimeStep::Auto { fraction: 0.75 };
-        assert_eq!(auto.choose(8.0), Ok(6.0));
+        assert_eq!([auto.choose(8.0, 7.0), auto.choose(8.0, 5.0)], [Ok(6.0), Ok(5.0)]);
         assert_eq!(auto.adapt(6.0, 16.0), Some(6.0));
         assert_eq!(auto.adapt(6.0, 8.0), Some(6.0));
         assert_eq!(auto.adapt(6.0, 4.0), Some(3.0));

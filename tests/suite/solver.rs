@@ -1,6 +1,7 @@
 //! The run in time: conservation, stability, restart.
 
 mod damped;
+mod energy;
 mod relaxed;
 
 use std::convert::Infallible;

@@ -43,3 +43,15 @@ fn starts_that_the_probes_cannot_tell_apart_are_not_told_apart() {
         "{page}"
     );
 }
+
+#[test]
+fn an_energy_error_that_counts_is_told_first() {
+    let study = |error: f64| {
+        let mut study = three_meshes();
+        study.cases[0].manifest.energy_error = Some(error);
+        text(&written(&study), "report.html")
+    };
+    let told = "the energy error of coarse is 2.2 % of the work.";
+    assert!(study(0.022).contains(told));
+    assert!(!study(0.009).contains("Beware"));
+}
