@@ -2,6 +2,7 @@
 
 mod damped;
 mod energy;
+mod parted;
 mod relaxed;
 
 use std::convert::Infallible;
