@@ -22,5 +22,12 @@ pub fn sentences(cases: &[Analysed]) -> Vec<String> {
             case.name()
         ))
     });
-    energy.collect()
+    let nodal = cases.iter().filter(|case| case.is_nodal()).map(|case| {
+        format!(
+            "Beware: {} sums the bonds of nodes only, which fails the patch test: uncracked it is far too soft, so no K that \
+             takes the moduli of the lattice, Griffith's among them, is given for it.",
+            case.name()
+        )
+    });
+    energy.chain(nodal).collect()
 }
