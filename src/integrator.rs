@@ -101,6 +101,24 @@ fn kick_coupled(velocity: &mut [f64], force: &[f64], mobility: &[f64], coupling:
     }
 }
 
+/// The square of what the forces accelerate a node of a range by, coupled masses as if they were not, nm^2/ps^4: the largest.
+pub fn largest_squared_acceleration(state: &State, nodes: Range<usize>) -> f64 {
+    let largest = |from: usize| {
+        let nodes = from..nodes.end.min(from + CHUNK);
+        let [x, y] = [0, 1].map(|axis| {
+            let [force, mobility] = [&state.force[axis][nodes.clone()], &state.mobility[axis][nodes.clone()]];
+            force.iter().zip(mobility).map(|(force, mobility)| force * mobility)
+        });
+        let squares = x.zip(y).map(|(x, y)| x * x + y * y);
+        squares.fold(
+            0.0,
+            |largest: f64, square| if square > largest { square } else { largest },
+        )
+    };
+    let chunks = nodes.clone().into_par_iter().step_by(CHUNK);
+    chunks.map(largest).reduce(|| 0.0, f64::max)
+}
+
 /// Largest stable time step of central differences, 2/omega, for a bound of the squared highest frequency.
 pub fn stability_limit(squared_frequency: f64) -> f64 {
     2.0 / squared_frequency.sqrt()
@@ -120,6 +138,17 @@ mod tests {
         kick_and_drift(state, &state.every_node(), 1, time);
         state.force[0][0] = -state.position[0][0];
         kick(state, &state.every_node(), 0.5 * time);
+    }
+
+    #[test]
+    fn the_largest_acceleration_is_that_of_the_node_with_most_force_to_its_mass() {
+        let nodes = 3 * CHUNK + 7;
+        let mut state = State::at_rest([vec![0.0; nodes], vec![0.0; nodes]], vec![2.0; nodes]);
+        state.force[0].fill(1.0);
+        [state.force[0][CHUNK + 3], state.force[1][CHUNK + 3]] = [-6.0, 8.0];
+        assert_eq!(largest_squared_acceleration(&state, 0..nodes), 25.0);
+        assert_eq!(largest_squared_acceleration(&state, CHUNK + 4..nodes), 0.25);
+        assert_eq!(largest_squared_acceleration(&state, 0..0), 0.0);
     }
 
     #[test]

@@ -1,9 +1,11 @@
 //! Prescribed motion: what moves the specimen from outside, and the work it does.
 
 mod impulse;
+mod pace;
 mod sponge;
 
 pub use impulse::Impulse;
+pub use pace::longest_step;
 pub use sponge::{Layers, Sponge};
 
 use std::ops::Range;
@@ -172,7 +174,7 @@ mod tests {
     use crate::mesh::Plan;
     use crate::mesh::sites::Layout;
 
-    fn mesh() -> Mesh {
+    pub(super) fn mesh() -> Mesh {
         let layout = Layout {
             block: 10,
             rows: 4,

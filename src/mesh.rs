@@ -33,6 +33,14 @@ pub struct Plan {
     pub spacing: f64,
 }
 
+impl Plan {
+    /// Height between the grips, from the highest row of the lower to the lowest of the upper one, nm.
+    pub fn height_between_grips(&self) -> f64 {
+        let rows = self.layout.lattice_rows() - 2 * self.grip_rows + 1;
+        f64::from(rows) * triangular::ROW_HEIGHT * self.spacing
+    }
+}
+
 /// Elements, nodes and sites of a specimen in its reference state.
 #[derive(Clone, Debug)]
 pub struct Mesh {

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod ahead;
+mod beware;
 mod branching;
 mod chart;
 mod events;
@@ -74,6 +75,11 @@ impl Analysed<'_> {
         self.result.setting.as_ref().map(|setting| setting.rayleigh_speed)
     }
 
+    /// Whether bonds of nodes stood for all others, so that the moduli of the lattice are not those of the specimen.
+    fn is_nodal(&self) -> bool {
+        is_nodal(self.result)
+    }
+
     fn peak_speed_over_rayleigh(&self) -> Option<f64> {
         Some(self.findings.peak_speed()? / self.rayleigh_speed()?)
     }
@@ -143,10 +149,14 @@ fn analysed(cases: &[CaseResult]) -> Vec<Analysed<'_>> {
     let findings: Vec<Findings> = cases
         .par_iter()
         .map(|case| {
-            case.setting
-                .as_ref()
+            let findings = case.setting.as_ref();
+            let mut findings = findings
                 .map(|setting| analysis::analyse(&case.series, setting))
-                .unwrap_or_default()
+                .unwrap_or_default();
+            if is_nodal(case) {
+                findings.griffith = None;
+            }
+            findings
         })
         .collect();
     let conditions: Vec<String> = cases.iter().map(conditions).collect();
@@ -174,6 +184,11 @@ fn analysed(cases: &[CaseResult]) -> Vec<Analysed<'_>> {
             difference,
         })
         .collect()
+}
+
+fn is_nodal(case: &CaseResult) -> bool {
+    let chosen = case.choices.iter().find(|(key, _)| key == "run.summation");
+    chosen.is_some_and(|(_, value)| value == "nodal")
 }
 
 /// A case takes part in the comparison when it ran to its end.

@@ -1,6 +1,7 @@
 //! A resolved case becomes a ready solver, and a run its folder.
 
 mod burden;
+mod caution;
 mod census;
 mod error;
 mod estimate;
@@ -11,6 +12,7 @@ mod recorder;
 mod run;
 
 pub use burden::burdens;
+pub use caution::cautions;
 pub use error::SetupError;
 use estimate::refuse_what_does_not_fit;
 pub use estimate::{Estimate, Estimator, Specimen};

@@ -150,9 +150,12 @@ impl Solver {
             .map_err(SolverError::NoStart)?;
         let stored = [measure.energy(forces.domain()), measure.pairs(forces.domain())];
         let stability_limit = time_step::limit(&forces, &state);
-        let time_step = settings.time_step.choose(stability_limit)?;
+        let time_step = settings
+            .time_step
+            .choose(stability_limit, loading.longest_step(material.spacing))?;
         let jump = material.interaction.jump_at_cutoff();
-        let ledger = Ledger::new(stored, state.kinetic_energy(), jump);
+        let held = loading.held().map(|node| state.kinetic_energy_of(node as usize)).sum();
+        let ledger = Ledger::new(stored, [state.kinetic_energy(), held], jump);
         let grip_impulse = Impulse::new(&loading, &forces.domain().nodes());
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
@@ -300,7 +303,8 @@ impl Solver {
         let stored = [self.measure.energy(domain), self.measure.pairs(domain)];
         self.ledger.begin(stored, self.state.kinetic_energy());
         self.stability_limit = time_step::limit(&self.forces, &self.state);
-        self.time_step = self.settings.time_step.choose(self.stability_limit)?;
+        let longest = self.loading.longest_step(self.setting.spacing);
+        self.time_step = self.settings.time_step.choose(self.stability_limit, longest)?;
         self.cost.book(Phase::SetUp, &mut clock);
         Ok(true)
     }

@@ -244,6 +244,38 @@ mod tests {
     }
 
     #[test]
+    fn a_layer_takes_a_hundredth_of_a_wave_and_of_even_motion_what_its_depth_says() {
+        // Damping d halves into the decay of a wave, d/2, over twice the width w at speed c: the integral of d/c over the
+        // layer is ln 100, and with the square of the depth s it is d = 3 ln(100) c/w s^2. In a time that is short
+        // 2 d t of the energy goes.
+        const TIME: f64 = 1e-6;
+        // 4.6 for ln 100, and squares of 2 d t.
+        const ROUNDED: f64 = 2e-3;
+        let (width, speed) = (10.0, 9.0);
+        let (mesh, mut state) = specimen();
+        state.velocity[0].fill(1.0);
+        state.velocity[1].fill(0.0);
+        let mut sponge = Sponge::new(&mesh, 0.0, Some(layers(width)), 0.0);
+        let nodes = state.every_node();
+        sponge.absorb(&mut state, &nodes, TIME);
+        let taken: f64 = sponge.absorbed(Ranks::alone()).iter().sum();
+        let [low, high] = mesh.grip_edges();
+        let expected = mesh
+            .elements
+            .iter()
+            .filter(|element| mesh.grip_of(element) == 0)
+            .map(|element| {
+                let sites = element.sites().collect::<Vec<_>>();
+                let height = sites.iter().map(|&site| mesh.reference(site)[1]).sum::<f64>() / sites.len() as f64;
+                let depth = [low + width - height, height - high + width].map(|depth| depth.max(0.0) / width);
+                let damping = 3.0 * 100_f64.ln() * speed / width * (depth[0] * depth[0] + depth[1] * depth[1]);
+                0.5 * sites.len() as f64 * 2.0 * damping * TIME
+            });
+        let expected: f64 = expected.sum();
+        assert!((taken / expected - 1.0).abs() < ROUNDED, "{taken} {expected}");
+    }
+
+    #[test]
     fn the_middle_of_the_specimen_and_the_grips_are_left_alone() {
         let (mesh, mut state) = specimen();
         state.velocity[0].fill(1.0);

@@ -2,7 +2,7 @@
 
 use super::numbers::{ABSENT, count, duration, signed_percent, significant};
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
-use super::{Analysed, CaseResult};
+use super::{Analysed, CaseResult, beware};
 use crate::analysis::stress_intensity::{FromJ, NearTip};
 
 /// More cases than this are left to the table.
@@ -81,6 +81,7 @@ fn effort(cases: &[Analysed]) -> Option<String> {
 /// Some sentences that answer: did it work, for what effort, when does the crack start, what does coarseness save and cost?
 pub fn verdict(cases: &[Analysed]) -> String {
     let mut sentences = vec![done(cases)];
+    sentences.extend(beware::sentences(cases));
     sentences.extend(effort(cases));
     sentences.extend(cases.iter().enumerate().filter_map(|(index, reference)| {
         // Each specimen has a case of its own that the others are measured against; one without a crack says nothing.

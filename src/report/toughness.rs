@@ -62,10 +62,12 @@ impl Definition {
         }
     }
 
-    /// MPa sqrt(m); `None` where there is no crack that started.
+    /// MPa sqrt(m); `None` where there is no crack that started, and where the definition takes the moduli of the lattice and
+    /// the specimen has others.
     pub fn value(self, case: &Analysed) -> Option<f64> {
         let findings = &case.findings;
         let value = match self {
+            Self::EnergyBalance | Self::BetweenGrips if case.is_nodal() => return None,
             Self::NearTip => findings.near_tip?.value,
             Self::JIntegral => findings.from_j?.value,
             Self::EnergyBalance => {

@@ -157,6 +157,15 @@ impl SetupError {
                 ),
                 "choose a smaller one, or `time-step: auto`",
             ),
+            Self::Solver(SolverError::OutrunByGrips { given, longest }) => Refusal::new(
+                Subject::TimeStep,
+                format!(
+                    "in a time step of {given:.5} ps the grips outrun the specimen by more than a hundredth of the spacing of the \
+                     lattice: it may have {longest:.5} ps"
+                ),
+                "choose a smaller one, or `time-step: auto`, a lower strain rate, or `ramp: initial-velocity`",
+            )
+            .with(Subject::Rate, "at this rate"),
             Self::Solver(other) => Refusal::new(
                 Subject::Cutoff,
                 other.to_string(),

@@ -5,7 +5,7 @@ use super::geometry::{self, Geometry, Notch};
 use super::leftovers::Leftovers;
 use crate::forces::Summation;
 use crate::lattice::triangular;
-use crate::loading::{Grip, Stretching};
+use crate::loading::{Grip, Stretching, longest_step};
 use crate::material::Material;
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
@@ -88,9 +88,12 @@ impl Estimator {
         let material = self.material(case)?;
         let plan = mesh_plan(case, &material)?;
         refuse_what_does_not_fit(&plan, ranks(case))?;
+        let case::Loading::StrainRate { rate, ramp, .. } = case.loading;
+        let is_ramped = ramp == case::Ramp::InitialVelocity;
+        let longest = longest_step(rate, plan.height_between_grips(), is_ramped, plan.spacing);
         let (specimen, census) = self.lay_out(case, &plan);
         let stability_limit = self.stability_limit(case, &census, &material)?;
-        estimate_with(case, &material, specimen, &census, stability_limit)
+        estimate_with(case, &material, specimen, &census, [stability_limit, longest])
     }
 
     /// The specimen of a case; an error is that of [`Self::estimate`].
@@ -194,11 +197,11 @@ fn estimate_with(
     material: &Material,
     specimen: Specimen,
     census: &Census,
-    stability_limit: f64,
+    [stability_limit, longest]: [f64; 2],
 ) -> Result<Estimate, SetupError> {
     let case::Loading::StrainRate { rate, .. } = case.loading;
     let settings = settings(case, rate);
-    let time_step = settings.time_step.choose(stability_limit)?;
+    let time_step = settings.time_step.choose(stability_limit, longest)?;
     let start = case.run.relax.unwrap_or(0.0);
     let steps = settings
         .until

@@ -10,6 +10,12 @@ pub enum SolverError {
     )]
     StepTooLong { given: f64, limit: f64 },
     #[error(
+        "in a time step of {given:.5} ps the grips outrun the specimen by more than a hundredth of the spacing of the lattice: \
+         the step may have {longest:.5} ps at this strain rate; choose a smaller one, or `time-step: auto`, a lower rate, or \
+         `ramp: initial-velocity`"
+    )]
+    OutrunByGrips { given: f64, longest: f64 },
+    #[error(
         "step {step}, {time:.3} ps, strain {strain:.5}: {source}, which was at x = {:.3} nm, y = {:.3} nm; \
          try a smaller fraction of the stability limit or a lower strain rate",
         place[0], place[1]

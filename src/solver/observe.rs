@@ -163,7 +163,7 @@ impl Solver {
             balance,
             stress: [sigma_xx, sigma_yy, sigma_xy],
         } = totals;
-        let area = self.setting.length * self.setting.thickness;
+        let area = probe::mean_length(self.forces.mesh()) * self.setting.thickness;
         Probe {
             step: self.step,
             time: self.time,

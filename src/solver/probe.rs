@@ -32,6 +32,12 @@ impl Interior {
     }
 }
 
+/// Mean length of the lattice rows, nm: their ends are the teeth of the sides, so that none is as long as the specimen from
+/// tooth to tooth.
+pub fn mean_length(mesh: &Mesh) -> f64 {
+    mesh.sites.len() as f64 / f64::from(mesh.sites.rows()) * mesh.spacing
+}
+
 /// Reference area of a site times the thickness, nm^3.
 pub fn site_volume(setting: &Setting) -> f64 {
     triangular::SITE_AREA * setting.spacing * setting.spacing * setting.thickness

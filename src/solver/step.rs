@@ -49,9 +49,12 @@ impl Solver {
         self.grip_impulse.add(&self.state, 0.5 * time_step);
         self.cost.book(Phase::Motion, &mut clock);
         let [present, limit] = [self.time_step, self.stability_limit];
-        if self.settings.time_step.is_to_be_checked(self.step, present, limit) {
+        let chosen = self.settings.time_step;
+        if chosen.is_to_be_checked(self.step, present, limit)
+            || chosen.follows_forces(self.step) && time_step::is_rough(self.hardest_push())
+        {
             self.stability_limit = time_step::limit(&self.forces, &self.state);
-            let adapted = self.settings.time_step.adapt(self.time_step, self.stability_limit);
+            let adapted = chosen.adapt(self.time_step, self.stability_limit);
             self.time_step = adapted.ok_or_else(|| self.step_unstable())?;
             self.cost.book(Phase::Stability, &mut clock);
         }
@@ -64,6 +67,15 @@ impl Solver {
             }
         }
         Ok(())
+    }
+
+    /// How far the force on a node moves it within a step, over the spacing of the lattice: the largest of all ranks.
+    fn hardest_push(&self) -> f64 {
+        let domain = self.forces.domain();
+        let nodes = domain.nodes().into_iter();
+        let largest = nodes.map(|nodes| integrator::largest_squared_acceleration(&self.state, nodes));
+        let largest = domain.ranks().largest(largest.fold(0.0, f64::max));
+        largest.sqrt() * self.time_step * self.time_step / self.setting.spacing
     }
 
     /// Cuts the specimen anew. It leaves no trace in the results.

@@ -1,6 +1,9 @@
 //! The run in time: conservation, stability, restart.
 
 mod damped;
+mod energy;
+mod factors;
+mod parted;
 mod relaxed;
 
 use std::convert::Infallible;
@@ -132,30 +135,6 @@ fn the_ledger_closes_for_every_rule_of_summation_and_every_mass_matrix() {
             assert!(error < ENERGY_ERROR, "{label}: energy error {error:e}");
         }
     }
-}
-
-#[test]
-fn truncation_releases_the_energy_of_every_pair_that_leaves() {
-    let material = nearest_neighbours();
-    let mesh = slab(1, vec![], material.spacing);
-    let mut solver = solver(mesh, material, settings(0.046));
-    let (keeper, _) = run(&mut solver);
-    let last = keeper.probes.last().unwrap();
-    let broken = keeper
-        .bonds
-        .iter()
-        .map(|event| if event.broken { 1.0 } else { -1.0 })
-        .sum::<f64>();
-    let each = -material.interaction.jump_at_cutoff();
-    assert!(broken > 10.0);
-    assert!(
-        (last.cutoff_release / (each * broken) - 1.0).abs() < 0.2,
-        "{} for {}",
-        last.cutoff_release,
-        each * broken
-    );
-    let error = solver.ledger().relative_error().unwrap();
-    assert!(error < ENERGY_ERROR, "energy error {error:e}");
 }
 
 #[test]

@@ -43,3 +43,40 @@ fn starts_that_the_probes_cannot_tell_apart_are_not_told_apart() {
         "{page}"
     );
 }
+
+#[test]
+fn an_energy_error_that_counts_is_told_first() {
+    let study = |error: f64| {
+        let mut study = three_meshes();
+        study.cases[0].manifest.energy_error = Some(error);
+        text(&written(&study), "report.html")
+    };
+    let told = "the energy error of coarse is 2.2 % of the work.";
+    assert!(study(0.022).contains(told));
+    assert!(!study(0.009).contains("Beware"));
+}
+
+#[test]
+fn of_bonds_of_nodes_no_toughness_is_given_that_takes_the_moduli_of_the_lattice() {
+    let mut study = three_meshes();
+    let nodal = ("run.summation".to_owned(), "nodal".to_owned());
+    study.cases[0].choices.push(nodal);
+    let folder = written(&study);
+    assert!(text(&folder, "report.html").contains("coarse sums the bonds of nodes only, which fails the patch test"));
+    let table = text(&folder, "tables/k_ic.csv");
+    let mut lines = table.lines();
+    let head: Vec<&str> = lines.next().unwrap().split(',').collect();
+    let coarse: Vec<&str> = lines
+        .find(|line| line.starts_with("coarse"))
+        .unwrap()
+        .split(',')
+        .collect();
+    for column in [
+        "k_griffith_mpa_sqrt_m",
+        "k_energy_balance_mpa_sqrt_m",
+        "k_between_grips_mpa_sqrt_m",
+    ] {
+        let at = head.iter().position(|name| *name == column).unwrap();
+        assert_eq!(coarse[at], "", "{column}");
+    }
+}
