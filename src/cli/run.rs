@@ -150,7 +150,10 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         .map(|entry| with_ranks(&entry.planned, arguments))
         .collect();
     let estimates = estimates(&survey.plan, &asked)?;
-    let laid: Vec<_> = asked.iter().zip(estimates.iter().map(|estimate| &estimate.specimen)).collect();
+    let laid: Vec<_> = asked
+        .iter()
+        .zip(estimates.iter().map(|estimate| &estimate.specimen))
+        .collect();
     let warnings = specimen::one_computation(&laid);
     let now = Timestamp::now();
     let job = |(entry, estimate): (&Entry, &Estimate)| Job {

@@ -48,7 +48,9 @@ pub fn row(name: &str, specimen: &Specimen) -> Vec<String> {
         notch.map_or("-", |notch| end(notch.end)).to_owned(),
         digits(geometry.grip_thickness),
         format!("{} m/s", digits(geometry.grip_speed * METRES_PER_SECOND)),
-        specimen.leftovers.map_or_else(|| "-".to_owned(), |leftovers| left_over(&leftovers)),
+        specimen
+            .leftovers
+            .map_or_else(|| "-".to_owned(), |leftovers| left_over(&leftovers)),
     ]
 }
 
@@ -60,7 +62,9 @@ pub fn to_json(specimen: &Specimen) -> Value {
     let pair = |size: Size| json!({ "asked": size.asked, "actual": size.actual });
     let places = specimen.leftovers.map(|leftovers| {
         let places = leftovers.by_share().into_iter();
-        places.map(|(place, share)| json!({ "where": place, "share": share })).collect::<Vec<Value>>()
+        places
+            .map(|(place, share)| json!({ "where": place, "share": share }))
+            .collect::<Vec<Value>>()
     });
     json!({
         "length_nm": pair(geometry.length),
@@ -95,7 +99,9 @@ pub fn warnings(cases: &[Laid]) -> Vec<String> {
             }
         }
     }
-    let told = told.iter().map(|(text, names)| format!("warning: {}: {text}", listed(names)));
+    let told = told
+        .iter()
+        .map(|(text, names)| format!("warning: {}: {text}", listed(names)));
     told.chain(one_computation(cases)).collect()
 }
 
@@ -126,14 +132,20 @@ fn sizes_warning(specimen: &Specimen) -> Option<String> {
     let off: Vec<String> = sizes
         .filter(|(_, size)| size.error().abs() > NOTABLE)
         .map(|(name, size)| {
-            format!("the {name} is {} nm instead of {} nm", digits(size.actual), digits(size.asked))
+            format!(
+                "the {name} is {} nm instead of {} nm",
+                digits(size.actual),
+                digits(size.asked)
+            )
         })
         .collect();
     (!off.is_empty()).then(|| format!("laid out of whole elements, {}", off.join(", ")))
 }
 
 fn leftover_warning(specimen: &Specimen) -> Option<String> {
-    let leftovers = specimen.leftovers.filter(|leftovers| leftovers.share() > MANY_LEFTOVERS)?;
+    let leftovers = specimen
+        .leftovers
+        .filter(|leftovers| leftovers.share() > MANY_LEFTOVERS)?;
     Some(format!(
         "{} of the atoms are in smaller elements than asked for ({}): take smaller elements, a larger specimen, or a \
          `specimen.block` that they fit",
@@ -155,7 +167,11 @@ pub fn left_over(leftovers: &Leftovers) -> String {
 /// `115.3 (115)`; alone where that is what was asked for.
 fn size(size: Size) -> String {
     let [asked, actual] = [size.asked, size.actual].map(digits);
-    if asked == actual { actual } else { format!("{actual} ({asked})") }
+    if asked == actual {
+        actual
+    } else {
+        format!("{actual} ({asked})")
+    }
 }
 
 /// Four digits, no trailing zeros.

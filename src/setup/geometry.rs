@@ -120,6 +120,14 @@ pub fn computation(case: &Case, plan: &Plan, elements: u64, notch: Option<&Notch
     let rest = serde_json::to_string(&rest).unwrap_or_default();
     let mut hasher = DefaultHasher::new();
     let layout = plan.layout;
-    (rest, layout.block, layout.rows, layout.triangles, elements, notch.map(|notch| notch.severed)).hash(&mut hasher);
+    (
+        rest,
+        layout.block,
+        layout.rows,
+        layout.triangles,
+        elements,
+        notch.map(|notch| notch.severed),
+    )
+        .hash(&mut hasher);
     hasher.finish()
 }
