@@ -2,8 +2,10 @@
 
 mod comparison;
 mod difference;
+mod duplicates;
 mod expansion;
 mod identity;
+mod label;
 mod name;
 mod named_cases;
 mod range;
@@ -73,6 +75,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let findings = &study.findings.clone();
     let name = study_name(study, findings);
     let mut cases = Vec::new();
+    let mut origins = Vec::new();
     let mut typed = HashMap::new();
     // Names end up as folders, and not every file system tells B from b.
     let mut places: HashMap<String, Place> = HashMap::new();
@@ -95,6 +98,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         if let Some(resolved) = resolve(&draft.values, &draft.name, findings) {
             let id = RunId::of(&resolved.case);
             typed.insert(draft.name.clone(), draft.values);
+            origins.push((draft.origin, draft.place));
             cases.push(PlannedCase {
                 name: draft.name,
                 case: resolved.case,
@@ -105,6 +109,9 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     }
     let scaling = scaling::resolve(study, &cases, findings);
     scaling::tell_apart(&mut cases, scaling);
+    if content.sweep.right().is_some() {
+        duplicates::refuse(&cases, &origins, findings);
+    }
     findings.forget_common_cases(number);
     if !findings.is_empty() {
         return Err(study.error(findings));

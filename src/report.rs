@@ -18,6 +18,7 @@ mod precision;
 mod scaling;
 mod side_by_side;
 mod slab;
+mod specimen;
 mod study;
 mod summary;
 mod tables;
@@ -25,7 +26,7 @@ mod toughness;
 mod units;
 
 pub use film::Film;
-pub use study::{CaseResult, Failure, Manifest, OtherStudy, Phase, Scaling, Study};
+pub use study::{CaseResult, Failure, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
 
 use std::fs;
 use std::io::ErrorKind;

@@ -29,7 +29,7 @@ use crate::loading::{Grip, Layers, Sponge, Stretching};
 use crate::material::{Material, WaveSpeeds};
 use crate::mesh::cut::{Crack, WantedEnd};
 use crate::mesh::region::{Region, Shape};
-use crate::mesh::sites::Layout;
+use crate::mesh::sites::{Layout, SiteSet};
 use crate::mesh::{Mesh, Plan};
 use crate::potential::{AtCutoff, CutPotential, HarmonicBond, Interaction, LennardJones, Morse};
 use crate::solver::{self, Solver, TimeStep};
@@ -115,6 +115,7 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
     if speed > sound {
         return Err(SetupError::FasterThanSound { speed, sound });
     }
+    refuse_cracks_beyond(case, SiteSet::new(layout).last_bond() * spacing, spacing)?;
     let highest = (layout.rows - layout.rows / 2 - 1) * layout.block;
     let element = |element: u32| match u16::try_from(element) {
         Ok(fitting) if i32::from(fitting) <= highest => Ok(fitting),
@@ -139,6 +140,19 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
         grip_rows: specimen.block as i32,
         spacing,
     })
+}
+
+/// `longest` is how far the last bond on the crack plane is from the edge, nm. A tip is told where the next bond would be.
+fn refuse_cracks_beyond(case: &Case, longest: f64, spacing: f64) -> Result<(), SetupError> {
+    let Some(crack) = &case.crack else { return Ok(()) };
+    if crack.length > longest {
+        let crack = crack.length;
+        return Err(SetupError::CrackTooLong { crack, longest });
+    }
+    match case.run.until.crack_length {
+        Some(end) if end > longest + 0.5 * spacing => Err(SetupError::CrackOutOfReach { end, longest }),
+        _ => Ok(()),
+    }
 }
 
 /// The crack of a case, in units of the lattice spacing.

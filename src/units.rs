@@ -199,6 +199,21 @@ pub fn format(value: f64, dimension: Dimension) -> String {
     format!("{number} {written}")
 }
 
+/// A quantity or a number in the one spelling that all its spellings share: `10 nm` for `100 Å`, `10` for `10.0`. Units are
+/// those that quantities are written in, and femtoseconds for times below a picosecond. `None` where the text is neither.
+pub fn canonical(text: &str) -> Option<String> {
+    let (number, unit) = Decimal::split(text.trim())?;
+    if unit.trim().is_empty() {
+        return Some(number.to_string());
+    }
+    let read = |dimension: Dimension| Some((parse(text, dimension).ok()?, dimension));
+    let (value, dimension) = Dimension::ALL.into_iter().find_map(read)?;
+    if dimension == Time && value.abs() < 1.0 {
+        return Some(format!("{} fs", Decimal::of(value).shifted(3)));
+    }
+    Some(format(value, dimension))
+}
+
 fn missing_unit(text: &str, number: &Decimal, expected: Dimension) -> UnitError {
     let written = expected.written();
     let suggestion = match expected {

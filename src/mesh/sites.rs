@@ -152,6 +152,14 @@ impl SiteSet {
         starts.fold(f64::INFINITY, f64::min)
     }
 
+    /// How far from the left edge the last bond across the middle is, in spacings: where the row above it ends and the one
+    /// below it, which is half a spacing shorter, do.
+    pub fn last_bond(&self) -> f64 {
+        let middle = self.middle_row();
+        let ends = [middle - 1, middle].map(|row| triangular::position([self.columns(row).end - 1, row])[0]);
+        0.5 * (ends[0] + ends[1]) - self.left()
+    }
+
     /// The boundary between lattice rows at which a crack through the middle is cut: a boundary of element rows,
     /// and where their number is odd the one just below the middle.
     pub fn middle_row(&self) -> i32 {

@@ -188,3 +188,6 @@ impl Tiling<'_> {
         self.breaks.iter().any(|&row| low < row && row <= high)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,7 @@
 //! Names of studies and cases, which become names of folders.
 
 use crate::study::{Finding, Findings, Place};
+use crate::units;
 
 /// A case from a long sweep may be longer than what is typed; file systems end at 255 bytes.
 const LONGEST_TYPED: usize = 60;
@@ -34,8 +35,10 @@ fn shortened(name: &str) -> String {
     }
 }
 
-/// A value as part of a name: `4.6e6 /s` is `4.6e6-per-s`, `0.5 %` is `0.5percent`, `354 nm` is `354nm`.
+/// A value as part of a name, however it is spelled: `4.6e6 /s` is `4.6e6-per-s`, `0.5 %` is `0.5percent`, `354 nm` and
+/// `3540 Å` are `354nm`.
 pub fn part(value: &str) -> String {
+    let value = units::canonical(value).unwrap_or_else(|| value.to_owned());
     let mut name = String::new();
     for c in value.chars() {
         match c {

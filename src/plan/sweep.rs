@@ -1,6 +1,6 @@
 //! The sweep of a study as axes: each a list of points, each point a change laid over a case.
 
-use super::{name, range};
+use super::{label, range};
 use crate::study::{CaseFile, Finding, Findings, Given, Name, Node, Place, Sweep, Value, read_tree};
 
 /// What varies together: one path, or the paths of a `zip` group.
@@ -117,10 +117,12 @@ fn read_path<'a>(name: &'a str, place: Place, node: &'a Node, findings: &Finding
 
 fn axis(group: &[Path], short: &dyn Fn(&str) -> String, findings: &Findings) -> Axis {
     let length = group.first().map_or(0, |path| path.values.len());
+    let labels: Vec<Vec<String>> = group.iter().map(|path| label::all(&path.values)).collect();
     let point = |index: usize| {
         let parts: Vec<String> = group
             .iter()
-            .map(|path| format!("{}-{}", short(path.name), label(&path.values[index], index)))
+            .zip(&labels)
+            .map(|(path, labels)| format!("{}-{}", short(path.name), labels[index]))
             .collect();
         let changes = group
             .iter()
@@ -134,20 +136,6 @@ fn axis(group: &[Path], short: &dyn Fn(&str) -> String, findings: &Findings) -> 
     };
     Axis {
         points: (0..length).map(point).collect(),
-    }
-}
-
-/// A value in the name of a case: itself, the kind of a choice such as `morse`, or else its number from 1.
-fn label(value: &Node, index: usize) -> String {
-    let text = match &value.value {
-        Value::Word(text) => name::part(text),
-        Value::Map(entries) if entries.len() == 1 => name::part(entries[0].0.text()),
-        _ => String::new(),
-    };
-    if text.is_empty() || text.len() > 30 {
-        (index + 1).to_string()
-    } else {
-        text
     }
 }
 

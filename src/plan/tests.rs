@@ -128,6 +128,31 @@ fn a_swept_choice_is_named_by_its_kind() {
     assert_eq!(names(&cases), ["potential-lennard-jones", "potential-harmonic-bond"]);
 }
 
+#[test]
+fn swept_choices_are_named_by_what_they_hold() {
+    let cases = with("sweep:\n  run.mass: [{blend: 0.5}, {blend: 0.65}]\n");
+    assert_eq!(names(&cases), ["mass-blend-0.5", "mass-blend-0.65"]);
+    let cases = with(
+        "sweep:\n  material.potential.lennard-jones.at-cutoff: [{smooth: {from: 0.33 nm, to: 0.34 nm}}, {smooth: {from: 0.32 nm, to: 0.34 nm}}]\n",
+    );
+    assert_eq!(
+        names(&cases),
+        [
+            "at-cutoff-smooth-from-0.33nm-to-0.34nm",
+            "at-cutoff-smooth-from-0.32nm-to-0.34nm"
+        ]
+    );
+}
+
+#[test]
+fn the_name_of_a_case_does_not_depend_on_how_a_quantity_is_spelled() {
+    let spelled = |lengths: &str| names(&with(&format!("sweep:\n  crack.length: {lengths}\n"))).join(" ");
+    assert_eq!(spelled("[100 nm, 0.2 um]"), "length-100nm length-200nm");
+    assert_eq!(spelled("[1000 Å, 200.0 nm]"), "length-100nm length-200nm");
+    let rates = with("sweep:\n  loading.strain-rate.rate: [4.6 us^-1, 9.20e6 /s]\n");
+    assert_eq!(names(&rates), ["rate-4.6e6-per-s", "rate-9.2e6-per-s"]);
+}
+
 /// Changes whenever old results would no longer be recognised; then `identity::CASE_FORMAT` should go up on purpose.
 #[test]
 fn the_identity_of_a_known_case_stays() {

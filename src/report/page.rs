@@ -5,7 +5,7 @@ use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::summary::{self, Group, Row};
 use super::tables::Table;
-use super::{Analysed, ReportError, Study, agreement, expected, method, numbers, scaling};
+use super::{Analysed, ReportError, Study, agreement, expected, method, numbers, scaling, specimen};
 use crate::plan::Comparison;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment, Value, context};
@@ -57,6 +57,7 @@ impl Page<'_> {
             names => list(self.cases, |case| case.name().into()),
             many => self.cases.len() > MOST_ABREAST,
             groups => list(&summary::groups(self.cases), group),
+            specimens => list(&specimen::notes(self.cases), pair),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             scaling => self.scaling.map(|found| self.scaling(found)),
             comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),

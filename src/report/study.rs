@@ -59,6 +59,8 @@ pub struct CaseResult {
     /// The resolved case as pairs of dotted key and value, as a person reads them; the report shows those that differ
     /// between the cases.
     pub choices: Vec<(String, String)>,
+    /// `None` where that cannot be told on this machine.
+    pub specimen: Option<Specimen>,
     /// `None` where the case did not come as far as its set-up.
     pub setting: Option<Setting>,
     pub series: Series,
@@ -68,6 +70,25 @@ pub struct CaseResult {
     /// Hash of all that it has computed, where runs of one case are compared.
     pub digest: Option<String>,
     pub failure: Option<Failure>,
+}
+
+/// A specimen as asked for and as laid out of whole elements; lengths in nm, asked before actual.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Specimen {
+    pub length: [f64; 2],
+    pub width: [f64; 2],
+    pub height_between_grips: [f64; 2],
+    /// `None` where there is no crack, as are the next two where nobody has laid the elements.
+    pub crack: Option<[f64; 2]>,
+    pub notch_end: Option<&'static str>,
+    /// Share of the atoms in smaller elements than asked for, and where those are.
+    pub leftover_share: Option<f64>,
+    pub leftover_where: Vec<&'static str>,
+    pub grip_thickness: f64,
+    /// Of each grip, nm/ps.
+    pub grip_speed: f64,
+    /// Equal for cases that are one computation, however they were asked for.
+    pub computation: u64,
 }
 
 /// How a case was carried out. What is not known is `None`.

@@ -1,6 +1,7 @@
 //! The cases side by side: what differs, what it costs, what came out, how far from the finest.
 
 use super::numbers::{ABSENT, count, duration, signed_percent, significant};
+use super::specimen::are_one_computation;
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
 use super::{Analysed, CaseResult, beware};
 use crate::analysis::stress_intensity::{FromJ, NearTip};
@@ -127,6 +128,9 @@ fn plural(count: usize) -> &'static str {
 /// `in coarse 39.3 % later, with 18 times fewer nodes and 22 times faster`
 fn against(case: &Analysed, reference: &Analysed) -> Option<String> {
     let name = case.name();
+    if are_one_computation(case.result, reference.result) {
+        return Some(format!("{name} is the same computation under another name"));
+    }
     let mut text = match case.difference.initiation_strain {
         Some(share) if share.abs() <= ROUNDING * between_probes(case, reference)? => {
             format!("in {name} at the same strain, within a probe")
@@ -368,6 +372,10 @@ fn energies(cases: &[Analysed]) -> Vec<Row> {
 }
 
 fn times_faster(case: &Analysed, cases: &[Analysed]) -> Option<String> {
-    let reference = cases[case.reference?].core_seconds_a_picosecond()?;
+    let reference = &cases[case.reference?];
+    if are_one_computation(case.result, reference.result) {
+        return None;
+    }
+    let reference = reference.core_seconds_a_picosecond()?;
     Some(significant(reference / case.core_seconds_a_picosecond()?, 2))
 }

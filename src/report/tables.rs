@@ -9,7 +9,7 @@ use super::numbers::{self, round_significant};
 use super::precision::{self, Quantity};
 use super::side_by_side::{self, Panel};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
-use super::{Analysed, ReportError, branching, events, expected, save, scaling, toughness};
+use super::{Analysed, ReportError, branching, events, expected, save, scaling, specimen, toughness};
 use crate::analysis::waves::{Arrival, Face, Wave};
 use crate::plan::{Comparison, SCALING};
 
@@ -36,6 +36,7 @@ pub fn all(
 ) -> Result<Vec<Table>, ReportError> {
     let own = [
         ("summary", summary(cases)),
+        ("specimen", specimen::columns(cases)),
         ("crack_speed", crack_speed(cases)),
         ("stress_profile", stress_profile(cases)),
         ("stress_strain", stress_strain(cases)),

@@ -49,6 +49,16 @@ pub enum SetupError {
         element: u32,
         rows: i32,
     },
+    /// Of the crack, and of the longest that leaves a bond, nm.
+    CrackTooLong {
+        crack: f64,
+        longest: f64,
+    },
+    /// The crack length that ends the run, and how far a crack can come, nm.
+    CrackOutOfReach {
+        end: f64,
+        longest: f64,
+    },
     /// GiB needed, and free on this machine.
     TooLarge {
         sites: u64,
@@ -130,6 +140,21 @@ impl SetupError {
                 format!("use {rows} or less"),
             )
             .with(Subject::Width, "in this width"),
+            Self::CrackTooLong { crack, longest } => Refusal::new(
+                Subject::Crack,
+                format!(
+                    "the crack ({crack} nm) leaves no bond whole: as laid out, the last of the specimen is at \
+                     {longest:.2} nm"
+                ),
+                "shorten the crack or lengthen the specimen",
+            )
+            .with(Subject::Length, "of this length"),
+            Self::CrackOutOfReach { end, longest } => Refusal::new(
+                Subject::UntilCrackLength,
+                format!("no crack can grow to {end} nm: as laid out, the last bond of the specimen is at {longest:.2} nm"),
+                "stop at a shorter crack",
+            )
+            .with(Subject::Length, "in this length"),
             Self::TooLarge {
                 sites,
                 ranks,

@@ -43,6 +43,14 @@ impl Leftovers {
         places
     }
 
+    /// Where at least a tenth of them are; the largest share first.
+    pub fn places(&self) -> Vec<&'static str> {
+        const TENTH: f64 = 0.1;
+        let least = TENTH * self.share();
+        let there = self.by_share().into_iter().filter(|(_, share)| *share >= least);
+        there.map(|(place, _)| place).collect()
+    }
+
     /// The place that an element counts to: a face where a whole element has no room beside it, else the inner edge of a
     /// grip or the outer edge of the specimen, to which bands of rows are laid.
     fn place(&mut self, plan: &Plan, mesh: &Mesh, element: &Element) -> &mut f64 {

@@ -25,8 +25,11 @@ pub enum Subject {
     Width,
     Element,
     Rate,
+    Crack,
     /// The strain or the time that ends the run.
     Until,
+    /// The crack length that ends it.
+    UntilCrackLength,
     TimeStep,
     Probes,
 }
@@ -83,6 +86,11 @@ impl Subject {
                 let until = &case.run.right()?.until;
                 let values = until.right()?;
                 values.strain.place().or(values.time.place()).or(until.place())
+            }
+            Self::Crack => case.crack.right()?.length.place().or(case.crack.place()),
+            Self::UntilCrackLength => {
+                let until = &case.run.right()?.until;
+                until.right()?.crack_length.place().or(until.place())
             }
             Self::TimeStep => case.run.right()?.time_step.place().or(case.run.place()),
             Self::Probes => case.probes.right()?.every.place().or(case.probes.place()),

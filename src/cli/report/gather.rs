@@ -7,17 +7,19 @@ use serde_json::Value;
 
 use super::others::Other;
 use crate::analysis::series::{Series, Setting};
+use crate::cli::specimen::end;
 use crate::cli::survey::{Entry, Survey};
 use crate::domain::MessageCost;
 use crate::plan::{self, SCALING};
 use crate::record::{self, CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE};
-use crate::report::{CaseResult, Failure, Film, Manifest, Phase, Scaling, Study};
-use crate::setup;
+use crate::report::{CaseResult, Failure, Film, Manifest, Phase, Scaling, Specimen, Study};
+use crate::setup::{self, Estimator};
 use crate::store::{self, Attempt, State};
 
 /// A study with the results of all its cases, also of those that failed or are missing.
 pub fn gather(survey: &Survey, others: &[Other]) -> Study {
     let scaling = scaling(survey);
+    let mut estimator = Estimator::default();
     let mut comparisons = survey.plan.comparisons.clone();
     if scaling.is_some() {
         comparisons.retain(|comparison| comparison.table != SCALING);
@@ -35,8 +37,29 @@ pub fn gather(survey: &Survey, others: &[Other]) -> Study {
         cases: survey
             .entries
             .iter()
-            .map(|entry| case_result(survey, entry, true))
+            .map(|entry| CaseResult {
+                // Where this machine cannot hold the mesh its specimen is not told.
+                specimen: estimator.specimen(&entry.planned.case).ok().map(|laid| specimen(&laid)),
+                ..case_result(survey, entry, true)
+            })
             .collect(),
+    }
+}
+
+fn specimen(laid: &setup::Specimen) -> Specimen {
+    let geometry = &laid.geometry;
+    let both = |size: setup::Size| [size.asked, size.actual];
+    Specimen {
+        length: both(geometry.length),
+        width: both(geometry.width),
+        height_between_grips: both(geometry.height),
+        crack: geometry.notch.map(|notch| both(notch.length)),
+        notch_end: geometry.notch.map(|notch| end(notch.end)),
+        leftover_share: laid.leftovers.map(|leftovers| leftovers.share()),
+        leftover_where: laid.leftovers.map(|leftovers| leftovers.places()).unwrap_or_default(),
+        grip_thickness: geometry.grip_thickness,
+        grip_speed: geometry.grip_speed,
+        computation: laid.computation,
     }
 }
 
