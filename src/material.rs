@@ -114,6 +114,14 @@ mod tests {
     }
 
     #[test]
+    fn central_forces_give_a_triangular_sheet_a_poisson_ratio_of_a_third_at_any_range() {
+        for cutoff in [1.5, 2.0, 2.5, 4.0] {
+            let ratio = Elasticity::of(&lennard_jones(cutoff)).poisson_ratio();
+            assert!((ratio - 1.0 / 3.0).abs() < 1e-9, "cutoff {cutoff}: {ratio}");
+        }
+    }
+
+    #[test]
     fn parting_a_row_costs_two_full_wells_a_spacing_unless_truncated() {
         let shape = LennardJones {
             epsilon: 1.0,

@@ -6,6 +6,8 @@ mod cutoff;
 mod harmonic_bond;
 mod lennard_jones;
 mod morse;
+#[cfg(test)]
+mod tests;
 
 pub use cutoff::{AtCutoff, CutPotential, PairValue};
 pub use harmonic_bond::HarmonicBond;

@@ -6,6 +6,7 @@ mod suite {
     mod end_to_end;
     mod executor;
     mod forces;
+    mod formulas;
     mod j_integral;
     mod record;
     mod relaxation;

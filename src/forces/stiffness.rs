@@ -209,3 +209,23 @@ fn largest_eigenvalue(stiffness: &Matrix6<f64>, mass: f64, known: f64) -> f64 {
     }
     stiffness.symmetric_eigenvalues().max() / mass
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Rounding of products of matrices of six rows.
+    const ROUNDING: f64 = 1e-12;
+
+    #[test]
+    fn over_coupled_masses_the_mass_matrix_itself_is_the_identity() {
+        for share in [0.05, 0.15, 0.24] {
+            let mass = Matrix6::from_fn(|row, column| {
+                let own = if row == column { 1.0 - 3.0 * share } else { 0.0 };
+                own + if row % 2 == column % 2 { share } else { 0.0 }
+            });
+            let difference = over_coupled_masses(mass, share) - Matrix6::identity();
+            assert!(difference.amax() < ROUNDING, "{share}: {difference}");
+        }
+    }
+}
