@@ -100,6 +100,7 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
         choices: choices.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec(),
         film: Some(film(&setting, if name == "coarse" { 10 } else { 1 })),
         setting: Some(setting),
+        specimen: None,
         series,
         manifest: Manifest {
             state: "done".to_owned(),

@@ -54,7 +54,7 @@ fn the_frequency_bound_of_the_perfect_lattice_is_the_largest_eigenvalue_of_its_t
             },
             element: size as u16,
             regions: vec![],
-            crack_length: None,
+            crack: None,
             grip_rows: size,
             spacing: material.spacing,
         });

@@ -9,6 +9,7 @@ use cgaft::forces::{Summation, referee};
 use cgaft::lattice::triangular::{NEAREST, SITE_AREA, position};
 use cgaft::loading::{Grip, Stretching};
 use cgaft::material::Material;
+use cgaft::mesh::cut::Crack;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::AtCutoff;
@@ -72,7 +73,7 @@ fn stretched() -> Solver {
         },
         element: 1,
         regions: vec![],
-        crack_length: Some(CRACK),
+        crack: Some(Crack::of_length(CRACK)),
         grip_rows: 10,
         spacing: material.spacing,
     });

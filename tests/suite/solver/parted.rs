@@ -3,6 +3,7 @@
 use std::sync::atomic::AtomicBool;
 
 use cgaft::loading::{Grip, Stretching};
+use cgaft::mesh::cut::Crack;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::solver::{Ending, Settings, Solver};
@@ -24,7 +25,7 @@ fn slab(element: u16, spacing: f64) -> Mesh {
         layout,
         element,
         regions: vec![],
-        crack_length: Some(39.1),
+        crack: Some(Crack::of_length(39.1)),
         grip_rows: 10,
         spacing,
     })
