@@ -7,6 +7,7 @@ mod ranks;
 mod repeat;
 mod single;
 mod slurm;
+mod specimen;
 
 use std::fs;
 use std::path::{Path, PathBuf};

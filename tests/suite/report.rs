@@ -8,6 +8,7 @@ mod parquet;
 mod precision;
 mod scaling;
 mod side_by_side;
+mod specimen;
 mod units;
 mod verdict;
 
@@ -30,6 +31,11 @@ const COLUMNS: [(&str, &str); 10] = [
          cutoff_release_ev,initiation_strain,initiation_time_ps,k_ic_near_tip_mpa_sqrt_m,k_ic_j_integral_mpa_sqrt_m,\
          k_griffith_mpa_sqrt_m,peak_speed_over_c_r,first_branch_time_ps,first_branch_strain,\
          first_bond_strain,first_bond_time_ps,speed_share,joins,leaves_plane_time_ps,leaves_plane_strain,parted_elsewhere_strain",
+    ),
+    (
+        "specimen",
+        "case,length_asked_nm,length_nm,width_asked_nm,width_nm,height_between_grips_asked_nm,height_between_grips_nm,\
+         crack_asked_nm,crack_nm,notch_end,grip_thickness_nm,grip_speed_m_per_s,leftover_share,leftover_where",
     ),
     (
         "crack_speed",
@@ -98,9 +104,9 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
         id: format!("{name}-0123456789abcdef"),
         resolved: "material:\n  mass: 802 u\n".to_owned(),
         choices: choices.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec(),
+        specimen: None,
         film: Some(film(&setting, if name == "coarse" { 10 } else { 1 })),
         setting: Some(setting),
-        specimen: None,
         series,
         manifest: Manifest {
             state: "done".to_owned(),
