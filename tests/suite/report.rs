@@ -24,7 +24,7 @@ use tempfile::TempDir;
 use super::synthetic::{crack_run, setting, torn};
 
 /// The columns that users rely on.
-const COLUMNS: [(&str, &str); 10] = [
+const COLUMNS: [(&str, &str); 11] = [
     (
         "summary",
         "case,nodes,elements,represented_atoms,steps,time_step_ps,wall_s,atom_steps_per_s,energy_error_relative,\
@@ -224,7 +224,8 @@ fn tables_have_exactly_the_promised_columns() {
     for (table, columns) in COLUMNS {
         let csv = text(&folder, &format!("tables/{table}.csv"));
         assert_eq!(csv.lines().next(), Some(columns), "{table}");
-        assert!(csv.lines().count() > 1, "{table} is empty");
+        // What was asked for is told by the study alone, which made cases do not have.
+        assert!(csv.lines().count() > 1 || table == "specimen", "{table} is empty");
     }
 }
 

@@ -64,18 +64,12 @@ fn a_given_time_step_that_becomes_unstable_ends_its_case_with_advice() {
 
 #[test]
 fn a_blow_up_fails_its_case_keeps_what_there_is_and_lets_the_others_run() {
-    // At the limit itself the breaking crystal is no longer stable.
-    let place = Workspace::with(&with_time_step("{fraction: 1.0}"));
+    // Just below the limit of the crystal at rest, which the breaking one undercuts.
+    let place = Workspace::with(&with_time_step("108 fs"));
     let run = place.cgaft("run", &[]).ended_with(1);
     assert!(run.stdout.contains("1 of 3 cases failed"), "{}", run.stdout);
     assert_eq!(place.states(), ["done", "failed", "done"]);
-    for told in [
-        "mixed: failed: the physics failed",
-        "step ",
-        "x = ",
-        "y = ",
-        "try a smaller fraction",
-    ] {
+    for told in ["mixed: failed: the physics failed", "step ", "no longer stable"] {
         assert!(run.stderr.contains(told), "no `{told}` in {}", run.stderr);
     }
 
@@ -84,7 +78,7 @@ fn a_blow_up_fails_its_case_keeps_what_there_is_and_lets_the_others_run() {
         assert!(kept.join(name).exists(), "{name}");
     }
     let page = fs::read_to_string(place.results().join("report.html")).unwrap();
-    assert!(page.contains("2 of 3 cases done, 1 failed") && page.contains("energy went astray"));
+    assert!(page.contains("2 of 3 cases done, 1 failed") && page.contains("no longer stable"));
     let rows = table(&place.results(), "stress_strain");
     let of_mixed = rows.iter().filter(|row| row["case"] == "mixed").count();
     assert!(of_mixed > 100, "{of_mixed} rows up to the failure");
@@ -128,18 +122,6 @@ fn a_pull_that_hardly_does_any_work_is_not_ended_by_rounding() {
     let place = Workspace::with(&slow.replace("until: {strain: 6 %, crack-length: 15 nm}", "until: {time: 10 ps}"));
     let run = place.cgaft("run", &[]).succeeded();
     assert_eq!(run.stdout.matches("time ").count(), 3, "{}", run.stdout);
-}
-
-#[test]
-fn a_specimen_that_explodes_between_two_probes_is_stopped_at_once() {
-    let seldom = with_time_step("{fraction: 1.0}").replace("every: 0.2 ps", "every: 5.5 ps");
-    let place = Workspace::with(&seldom);
-    let run = place.cgaft("run", &["--only", "mixed"]).ended_with(1);
-    for told in ["element ", "x = ", "y = ", "try a smaller fraction"] {
-        assert!(run.stderr.contains(told), "no `{told}` in {}", run.stderr);
-    }
-    let rows = table(&place.results(), "stress_strain");
-    assert_eq!(rows.len(), 11, "those before it: {rows:?}");
 }
 
 /// Folder of the one run that is not published.

@@ -171,6 +171,10 @@ fn the_page_is_whole(results: &Path) {
     for link in ["src=\"http", "href=\"http", "url(", "<link", "<script src", "@import"] {
         assert!(!page.contains(link), "it asks for {link}");
     }
-    assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 3);
+    assert_eq!(
+        page.matches("src=\"data:image/png;base64,").count(),
+        6,
+        "a slab and a path of each case"
+    );
     assert!(page.matches("<svg").count() >= 3);
 }

@@ -23,7 +23,11 @@ fn every_figure_has_a_name_a_description_and_units() {
             "{name}"
         );
     }
-    assert_eq!(figures.keys().filter(|name| name.ends_with(".png")).count(), 3);
+    assert_eq!(
+        figures.keys().filter(|name| name.ends_with(".png")).count(),
+        6,
+        "a slab and a path of each case"
+    );
 }
 
 #[test]

@@ -2,9 +2,9 @@
 
 use cgaft::loading::{Grip, Sponge, Stretching};
 use cgaft::potential::AtCutoff;
-use cgaft::solver::Solver;
+use cgaft::solver::{Settings, Solver};
 
-use super::{ENERGY_ERROR, run, settings};
+use super::{ENERGY_ERROR, QUARTER, run, settings};
 use crate::suite::specimens::{all_meshes, lennard_jones, nearest_neighbours, slab};
 
 const RATE: f64 = 1e-3;
@@ -15,7 +15,11 @@ fn the_ledger_closes_on_every_mesh_whatever_damping_takes() {
     for (name, mesh) in all_meshes(material.spacing) {
         let damping = Sponge::new(&mesh, RATE, None, 0.2);
         let loading = Stretching::new(&mesh, RATE, Grip::Clamped, true).with_sponge(Some(damping));
-        let mut solver = Solver::new(mesh, material, loading, settings(0.08)).unwrap();
+        let settings = Settings {
+            time_step: QUARTER,
+            ..settings(0.08)
+        };
+        let mut solver = Solver::new(mesh, material, loading, settings).unwrap();
         let (keeper, _) = run(&mut solver);
         assert!(keeper.bonds.iter().any(|event| event.broken), "{name}: nothing broke");
         let error = solver.ledger().relative_error().unwrap();
