@@ -25,7 +25,7 @@ TARGET = Path(os.environ.get("CARGO_TARGET_DIR") or ROOT / "target").resolve()
 PLACE = TARGET / "wrong-formulas"
 COPY = PLACE / "copy"
 # What cargo needs to compile the tests, and what these read.
-COPIED = ["Cargo.toml", "Cargo.lock", "build.rs", "src", "tests", "benches", "studies", "schemas", "docs", "reports"]
+COPIED = ["Cargo.toml", "Cargo.lock", "build.rs", "src", "tests", "benches", "studies", "schemas"]
 VARIABLE = "CGAFT_WRONG_FORMULA"
 # A test that takes longer hangs, s.
 LONGEST = 600
@@ -57,12 +57,12 @@ mod wrong_formulas {{
 }}
 """
 
-Formula = namedtuple("Formula", "number name source percent file text test line")
+Formula = namedtuple("Formula", "number name source percent place text test line")
 
 
 def main(names):
     formulas, complaints = read_table()
-    sources = {file: (ROOT / file).read_text() for file in {formula.file for formula in formulas} if (ROOT / file).exists()}
+    sources = {str(path.relative_to(ROOT)): path.read_text() for path in sorted((ROOT / "src").rglob("*.rs"))}
     insertions = {}
     for formula in formulas:
         complaint = locate(formula, sources, insertions)
@@ -93,17 +93,17 @@ def fail(complaints):
 
 
 def read_table():
-    formulas, complaints, file = [], [], None
+    formulas, complaints, place = [], [], None
     for number, line in enumerate(TABLE.read_text().splitlines(), 1):
         if line.startswith("## "):
-            file = line[3:].strip()
+            place = line[3:].strip()
         elif line.strip() and not line.startswith("#"):
             cells = [cell.strip() for cell in line.split(" | ")]
             if len(cells) != 5 or cells[3].count("⟨") != 1 or cells[3].count("⟩") != 1:
                 complaints.append(f"{TABLE.name}:{number}: name | source | per cent | text with ⟨ and ⟩ | test")
                 continue
             name, source, percent, text, test = cells
-            formulas.append(Formula(len(formulas) + 1, name, source, float(percent), file, text, test, number))
+            formulas.append(Formula(len(formulas) + 1, name, source, float(percent), place, text, test, number))
     names = [formula.name for formula in formulas]
     complaints += [f"{TABLE.name}: two formulas are called '{name}'" for name in {n for n in names if names.count(n) > 1}]
     return formulas, complaints
@@ -113,15 +113,18 @@ def locate(formula, sources, insertions):
     """Notes where the factor goes; the complaint if the text is not there exactly once, lines broken as they may be."""
     before, inside, after = re.split("[⟨⟩]", formula.text)
     pieces = [re.sub(r"(\\ )+", r"\\s+", re.escape(piece)) for piece in (before, inside, after)]
-    found = list(re.finditer("({})({})({})".format(*pieces), sources.get(formula.file, "")))
+    pattern = re.compile("({})({})({})".format(*pieces))
+    files = [file for file in sources if file == formula.place or file.startswith(f"{formula.place}/")]
+    found = [(file, match) for file in files for match in pattern.finditer(sources[file])]
     if len(found) != 1:
         return (
-            f"{TABLE.name}:{formula.line}: the text of '{formula.name}' is {len(found)} times in {formula.file}, not once;"
+            f"{TABLE.name}:{formula.line}: the text of '{formula.name}' is {len(found)} times in {formula.place}, not once;"
             f" mend this line: {before}{inside}{after}"
         )
-    at = insertions.setdefault(formula.file, [])
-    at.append((found[0].start(2), 1, "(("))
-    at.append((found[0].end(2), 0, f") * crate::wrong_formulas::factor({formula.number}))"))
+    [(file, match)] = found
+    at = insertions.setdefault(file, [])
+    at.append((match.start(2), 1, "(("))
+    at.append((match.end(2), 0, f") * crate::wrong_formulas::factor({formula.number}))"))
     return None
 
 
@@ -238,7 +241,7 @@ def wrong(program, formulas):
         if not is_caught:
             what = f"does not fail (it ended with {code})" if re.search("running [1-9]", text) else "is not there"
             survivors.append(
-                f"{TABLE.name}:{formula.line}: '{formula.name}' ({formula.source}) is {change} off in {formula.file},"
+                f"{TABLE.name}:{formula.line}: '{formula.name}' ({formula.source}) is {change} off in {formula.place},"
                 f" and the test {formula.test} {what}"
             )
     return survivors

@@ -14,6 +14,7 @@ mod strip;
 mod symmetry;
 mod torus;
 mod toughness;
+mod wrong_formulas;
 
 use cgaft::forces::Planes;
 use cgaft::material::Material;

@@ -20,6 +20,7 @@ pub enum Chapter {
     Motion,
     Fracture,
     Peer,
+    Gates,
 }
 
 impl Chapter {
@@ -31,6 +32,7 @@ impl Chapter {
             Self::Motion => "Motion in time",
             Self::Fracture => "Fracture",
             Self::Peer => "Against LAMMPS",
+            Self::Gates => "The tests themselves",
         }
     }
 }
