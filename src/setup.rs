@@ -213,6 +213,7 @@ fn settings(case: &Case, rate: f64) -> solver::Settings {
         summation: match case.run.summation {
             case::Summation::Exact => Summation::Exact,
             case::Summation::Gauss { points } => Summation::Gauss { points },
+            case::Summation::StrictGauss { points } => Summation::StrictGauss { points },
             case::Summation::Nodal => Summation::Nodal,
         },
         consistent_mass: match case.run.mass {

@@ -119,7 +119,9 @@ fn need(name: &str) -> Need {
         for string in &interfaces.kinds[pair.kind as usize].strings {
             strings += 1.0;
             bonds += match case.run.summation {
-                Summation::Gauss { points } => f64::from(string.count.min(points as i32 + 2)),
+                Summation::Gauss { points } | Summation::StrictGauss { points } => {
+                    f64::from(string.count.min(points as i32 + 2))
+                }
                 Summation::Exact | Summation::Nodal => f64::from(string.count),
             };
         }

@@ -17,6 +17,9 @@ pub enum Summation {
     /// Of each string of bonds between two triangles its ends, where the nodes are, with weight 1 and this many Gauss
     /// points between them: [Deng2011] Eq. (3-31). Bonds inside triangles and contacts are summed exactly.
     Gauss { points: u32 },
+    /// The same for every bond of the lattice between two triangles, however far these part; what comes together anew is
+    /// summed pair by pair. So it is one energy without a jump, coarse where bonds part.
+    StrictGauss { points: u32 },
     /// Only the bonds of sites that are nodes; each such site stands for its share of the element. Half the energy of a
     /// bond belongs to either end, which makes it [Deng2011] Eq. (3-33).
     Nodal,
@@ -28,7 +31,7 @@ impl Summation {
     pub fn site_weight(self, element: &Element, [p, q]: [i32; 2]) -> f64 {
         let last = element.size - 1;
         match self {
-            Self::Exact | Self::Gauss { .. } => 1.0,
+            Self::Exact | Self::Gauss { .. } | Self::StrictGauss { .. } => 1.0,
             Self::Nodal if [[0, 0], [last, 0], [0, last]].contains(&[p, q]) => element.lumped_mass(),
             Self::Nodal => 0.0,
         }
@@ -44,9 +47,7 @@ impl Summation {
         }
         let element = Element {
             size,
-            sign: 1,
-            column: 0,
-            row: 0,
+            ..Element::atom([0, 0])
         };
         let bonds = element.locals().filter_map(|[p, q]| {
             let other = [p + vector[0], q + vector[1]];
@@ -56,12 +57,17 @@ impl Summation {
         bonds.sum()
     }
 
+    /// Whether strings are summed by their rule even when they are bent or their triangles have parted.
+    pub fn keeps_strings(self) -> bool {
+        matches!(self, Self::StrictGauss { .. })
+    }
+
     /// How much the bonds of a string may change along it, in spacings, for it to be looked at in few places: beyond, the
     /// energy along it is no longer close to a polynomial. There the sum is off by some 1e-4 of a bond's energy, and that
     /// is by how much the energy jumps. `None`: strings are always looked at alike.
     fn hardly_bent(self) -> Option<f64> {
         match self {
-            Self::Exact | Self::Nodal => None,
+            Self::Exact | Self::Nodal | Self::StrictGauss { .. } => None,
             Self::Gauss { points: 1 } => Some(0.005),
             Self::Gauss { .. } => Some(0.05),
         }
@@ -107,10 +113,9 @@ impl SampledString {
         let every_bond = samples(Summation::Exact, elements, &string);
         // Where the few places are those of all bonds, nothing is gained.
         let bend = summation.hardly_bent().filter(|_| rule != every_bond);
-        let samples = if summation == Summation::Nodal {
-            &rule
-        } else {
-            &every_bond
+        let samples = match summation {
+            Summation::Nodal | Summation::StrictGauss { .. } => &rule,
+            Summation::Exact | Summation::Gauss { .. } => &every_bond,
         };
         Self {
             string,
@@ -205,12 +210,16 @@ fn share(elements: &[Element; 2], string: &BondString, side: usize, node: usize)
 /// The strings of every kind of interface under a rule.
 pub struct SampledStrings {
     of_kind: Vec<KindStrings>,
+    /// For each interface whether its strings count even when it is open; empty where none does.
+    kept: Vec<bool>,
 }
 
 impl SampledStrings {
     pub fn new(interfaces: &Interfaces, summation: Summation) -> Self {
         let of_kind = interfaces.kinds.iter().map(|kind| KindStrings::new(summation, kind));
+        let kept = interfaces.pairs.iter().map(|pair| !pair.severed);
         Self {
+            kept: kept.filter(|_| summation.keeps_strings()).collect(),
             of_kind: of_kind.collect(),
         }
     }
@@ -219,6 +228,12 @@ impl SampledStrings {
     #[inline(always)]
     pub fn of(&self, kind: u32) -> &KindStrings {
         &self.of_kind[kind as usize]
+    }
+
+    /// Whether the strings of an interface count even when it is open.
+    #[inline(always)]
+    pub fn are_kept(&self, interface: usize) -> bool {
+        self.kept.get(interface) == Some(&true)
     }
 
     /// Whether a kind of interface has strings at all.
@@ -236,7 +251,9 @@ fn samples(summation: Summation, [first, second]: &[Element; 2], string: &BondSt
                 weight: 1.0,
             })
             .collect(),
-        Summation::Gauss { points } => ends_and_gauss_points(string.count, points as usize),
+        Summation::Gauss { points } | Summation::StrictGauss { points } => {
+            ends_and_gauss_points(string.count, points as usize)
+        }
         Summation::Nodal => bonds
             .filter_map(|t| {
                 let [a, b] = string.ends(t);

@@ -229,6 +229,7 @@ impl Forces {
             states: &self.states,
             loosened: &self.loosened,
             summation: self.summation,
+            unlisted: self.limit.unlisted,
         };
         let triangles = field.searched();
         self.check_sound(&triangles, position)?;

@@ -177,6 +177,7 @@ fn running(run: &Run) -> Value {
     let summation = match *summation {
         Summation::Exact => json!("exact"),
         Summation::Gauss { points } => json!({ "gauss": points }),
+        Summation::StrictGauss { points } => json!({ "gauss": { "points": points, "strict": true } }),
         Summation::Nodal => json!("nodal"),
     };
     let mass = match *mass {

@@ -207,7 +207,13 @@ pub enum TimeStep {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Summation {
     Exact,
-    Gauss { points: u32 },
+    Gauss {
+        points: u32,
+    },
+    /// Also where strings are bent or parted.
+    StrictGauss {
+        points: u32,
+    },
     Nodal,
 }
 

@@ -3,6 +3,7 @@
 //! The doc comments below are what an editor shows through the JSON Schema.
 
 mod cluster;
+mod gauss;
 mod material;
 mod report;
 
@@ -16,6 +17,7 @@ use serde::Deserialize;
 
 pub use super::quantity::Interval;
 pub use cluster::ClusterFile;
+pub use gauss::Gauss;
 pub use material::*;
 pub use report::*;
 
@@ -252,7 +254,7 @@ pub enum Summation {
     /// Every bond.
     Exact,
     /// Of each string of bonds between two elements its ends and this many Gauss points between them.
-    Gauss(#[schemars(range(min = 1))] Given<u32>),
+    Gauss(Given<Gauss>),
     /// Only the bonds of nodes: cheap, and wrong at every strain that is not uniform.
     Nodal,
 }

@@ -56,6 +56,8 @@ pub fn read<'a, T: Deserialize<'a>>(node: &'a Node, findings: &'a Findings) -> G
 /// Name by which `Given` and `Reader` know each other, and of the variant that takes any other word.
 const GIVEN: &str = "$given";
 pub const OTHERWISE: &str = "$otherwise";
+/// Name of a type that is read from a number or from a map.
+pub const NUMBER_OR_MAP: &str = "$number-or-map";
 
 impl<'de, T: Deserialize<'de>> Deserialize<'de> for Given<T> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {

@@ -125,6 +125,52 @@ fn as_many_gauss_points_as_bonds_are_the_sum_over_all_pairs() {
     }
 }
 
+#[test]
+fn a_strict_rule_of_as_many_points_as_bonds_is_the_sum_over_all_pairs_also_where_triangles_have_parted() {
+    // [Deng2011] Eq. (3-31)
+    let material = nearest_neighbours();
+    for (mesh_name, mesh) in all_meshes(material.spacing) {
+        // In rubble sites lie all but on top of each other, where forces show any rounding of their places.
+        for (state, position) in states(&mesh).into_iter().filter(|(state, _)| *state != "rubble") {
+            let rule = Summation::StrictGauss { points: 8 };
+            check_against_referee(&mesh, &material, &position, rule, &format!("{mesh_name}, {state}"));
+        }
+    }
+}
+
+/// A smooth curve of so many points has third differences of some 1e-6 of its height.
+const SMOOTH_CURVE: f64 = 1e-5;
+
+#[test]
+fn a_strict_rule_is_one_energy_without_a_jump_while_two_halves_part() {
+    // [Deng2011] Eq. (3-31): the potential is smooth, so that a jump could come from the rule alone.
+    let material = lennard_jones(1.9, AtCutoff::Smooth { from: 1.5 });
+    let mut mesh = slab(10, vec![], material.spacing);
+    mesh.cut = None;
+    let middle = mesh.middle_height() / mesh.spacing;
+    let parted = |gap: f64| {
+        displaced(&mesh, |[x, y]| {
+            let opening = gap * (1.0 - x / 60.0);
+            [0.0, if y > middle { opening } else { 0.0 }]
+        })
+    };
+    let mut forces = Forces::with_summation(mesh.clone(), material, Summation::StrictGauss { points: 2 });
+    let mut force = zeros(&mesh);
+    let (step, count) = (2e-3, 500);
+    let mut energies = Vec::new();
+    for number in 0..count {
+        let position = parted(step * f64::from(number));
+        forces.compute(&mut position.clone(), &mut force).unwrap();
+        energies.push(forces.measure(&position).unwrap().energy(forces.domain()));
+    }
+    assert!(!forces.open_interfaces().is_empty(), "some have opened on the way");
+    // A smooth curve has third differences far below those of a jump.
+    let third = |k: usize| energies[k + 3] - 3.0 * energies[k + 2] + 3.0 * energies[k + 1] - energies[k];
+    let worst = (0..energies.len() - 3).fold(0.0, |most: f64, k| most.max(third(k).abs()));
+    let whole = energies[energies.len() - 1] - energies[0];
+    assert!(worst < SMOOTH_CURVE * whole, "{worst:e} of {whole}");
+}
+
 /// Each Gauss point divides the error of a smooth sum by the square of (bend over wavelength of the potential), here
 /// some hundreds; an eighth is asked.
 const CONVERGENCE: f64 = 0.125;

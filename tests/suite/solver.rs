@@ -133,7 +133,12 @@ fn the_ledger_closes_on_every_mesh_while_the_specimen_breaks() {
 #[test]
 fn the_ledger_closes_for_every_rule_of_summation_and_every_mass_matrix() {
     let material = lennard_jones(1.9, AtCutoff::Smooth { from: 1.5 });
-    let rules = [Summation::Exact, Summation::Gauss { points: 2 }, Summation::Nodal];
+    let rules = [
+        Summation::Exact,
+        Summation::Gauss { points: 2 },
+        Summation::StrictGauss { points: 2 },
+        Summation::Nodal,
+    ];
     for summation in rules {
         for consistent_mass in [0.0, 0.65, 1.0] {
             let settings = Settings {

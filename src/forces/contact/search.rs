@@ -13,6 +13,7 @@ use super::lattice::{AtomLattice, Surroundings, pair_along};
 use super::near::{Bounds, Corners, are_apart, is_apart_from};
 use super::partners::{PairKind, Partner};
 use crate::domain::Domain;
+use crate::lattice::triangular;
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
@@ -26,6 +27,8 @@ pub struct Field<'a> {
     /// Interfaces that are not tight, ascending.
     pub loosened: &'a [u32],
     pub summation: Summation,
+    /// Length of the shortest bonds of the perfect lattice that no string holds, in spacings.
+    pub unlisted: f64,
 }
 
 impl Field<'_> {
@@ -81,6 +84,18 @@ impl Field<'_> {
         }
         let triangles = triangles.iter().copied().zip(met);
         triangles.filter(|(_, met)| !met.are_nothing()).collect()
+    }
+
+    /// Whether a pair of sites of these elements is a bond of the lattice that is summed along strings although they parted.
+    fn is_in_a_kept_string(&self, [a, b]: [u32; 2], [from, to]: [[i32; 2]; 2]) -> bool {
+        let triangles = self.mesh.triangles as u32;
+        if !self.summation.keeps_strings() || a >= triangles || b >= triangles {
+            return false;
+        }
+        let squared = f64::from(triangular::squared_length([to[0] - from[0], to[1] - from[1]]));
+        let interface = self.interfaces.between(a as usize, b as usize);
+        squared < self.unlisted * self.unlisted
+            && interface.is_some_and(|interface| !self.interfaces.pairs[interface].severed)
     }
 
     /// Whether pairs of sites of these elements are summed elsewhere: inside a triangle or along intact strings.
@@ -337,6 +352,9 @@ impl Candidates {
             let [dx, dy] = [self.position[other][0] - x, self.position[other][1] - y];
             if dx * dx + dy * dy < limit && !summed_elsewhere(element) {
                 let there = site_of(other);
+                if field.is_in_a_kept_string([own, element], [site, there]) {
+                    return;
+                }
                 let pair = if field.mesh.severed(site, there) {
                     PairKind::Severed
                 } else if is_watched && other >= self.carried {

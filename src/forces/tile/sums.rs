@@ -125,7 +125,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
             any_open |= state == State::Open;
         }
         if any_open || count < Lanes::<L>::COUNT || !regular.every() {
-            self.note_irregular(run, [first, second], states, regular.answers());
+            self.note_irregular(run, number, [first, second], states, regular.answers());
         }
         // Where a triangle is the second of one interface and the first of another, the former has the lower number.
         for (side, triangle) in [(1, second), (0, first)] {
@@ -141,11 +141,22 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
         }
     }
 
-    /// Notes triangles with irregular interfaces, and takes off the forces of those that are open and of lanes too many.
+    /// Notes triangles with irregular interfaces, and takes off the forces of those that are open, unless their strings are
+    /// kept, and of lanes too many. `number` is that of the first interface.
     #[cold]
-    fn note_irregular(&mut self, run: &Run, triangles: [usize; 2], states: &[State], regular: [bool; MOST]) {
+    fn note_irregular(
+        &mut self,
+        run: &Run,
+        number: usize,
+        triangles: [usize; 2],
+        states: &[State],
+        regular: [bool; MOST],
+    ) {
         for lane in 0..MOST {
             let state = states.get(lane);
+            if state == Some(&State::Open) && self.field.strings.are_kept(number + lane) {
+                continue;
+            }
             if state.is_none_or(|&state| state == State::Open) {
                 let Scratch { sums, across, .. } = &mut *self.scratch;
                 let parts = sums.as_flattened_mut().iter_mut().chain(across);

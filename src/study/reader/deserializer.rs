@@ -1,7 +1,7 @@
 //! The tree as serde sees it.
 
 use super::{
-    Fault, GIVEN, OTHERWISE,
+    Fault, GIVEN, NUMBER_OR_MAP, OTHERWISE,
     access::{Caught, Entries, Items, Variant},
 };
 use crate::study::{
@@ -71,6 +71,20 @@ impl<'de> Deserializer<'de> for Reader<'de> {
 
     fn deserialize_u32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         visitor.visit_u32(self.number("a whole number such as 10")?)
+    }
+
+    fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        match &self.node.value {
+            Value::Word(text) if text == "true" || text == "false" => visitor.visit_bool(text == "true"),
+            _ => Err(self.unexpected(&"true or false")),
+        }
+    }
+
+    fn deserialize_newtype_struct<V: Visitor<'de>>(self, name: &'static str, visitor: V) -> Result<V::Value, Fault> {
+        match &self.node.value {
+            Value::Word(_) if name == NUMBER_OR_MAP => self.deserialize_u32(visitor),
+            _ => visitor.visit_newtype_struct(self),
+        }
     }
 
     fn deserialize_f64<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
@@ -205,8 +219,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
     }
 
     serde::forward_to_deserialize_any! {
-        bool i8 i16 i32 i64 i128 u8 u16 u64 u128 f32 char bytes byte_buf option unit unit_struct newtype_struct
-        ignored_any
+        i8 i16 i32 i64 i128 u8 u16 u64 u128 f32 char bytes byte_buf option unit unit_struct ignored_any
     }
 }
 

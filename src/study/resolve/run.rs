@@ -95,16 +95,26 @@ impl Check<'_> {
             Given::Wrong(_) => None,
             Given::Right(file::Summation::Exact, _) => Some(Summation::Exact),
             Given::Right(file::Summation::Nodal, _) => Some(Summation::Nodal),
-            Given::Right(file::Summation::Gauss(points), _) => {
-                let Given::Right(points, place) = *points else {
-                    return None;
+            Given::Right(file::Summation::Gauss(given), _) => {
+                let (points, place, strict) = match given {
+                    Given::Absent | Given::Wrong(_) => return None,
+                    Given::Right(file::Gauss::Points(points), place) => (*points, *place, false),
+                    Given::Right(file::Gauss::Rule(rule), section) => {
+                        let points = self.need(&rule.points, *section, "gauss.points", "2");
+                        let strict = self.choice(&rule.strict, false);
+                        let (points, place) = points?;
+                        (points, place, strict?)
+                    }
                 };
                 if points == 0 {
                     let message = "a string without Gauss points would be held at its ends alone";
                     self.add(Finding::at(place, message).help("write `summation: {gauss: 2}`, `exact` or `nodal`"));
                     return None;
                 }
-                Some(Summation::Gauss { points })
+                Some(match strict {
+                    false => Summation::Gauss { points },
+                    true => Summation::StrictGauss { points },
+                })
             }
         }
     }
