@@ -5,7 +5,7 @@ use crate::study::case::{Case, Summation};
 /// Sentences about the method that a case has chosen.
 pub fn cautions(case: &Case) -> Vec<String> {
     match case.run.summation {
-        Summation::Exact => vec![],
+        Summation::Exact | Summation::StrictGauss { .. } => vec![],
         Summation::Gauss { points } => vec![format!(
             "`summation: {{gauss: {points}}}` looks at some bonds of a string only: once bonds part the energy may drift, by \
              2 % of the work with two points; the report tells by how much"

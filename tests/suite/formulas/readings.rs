@@ -171,7 +171,10 @@ fn the_analysis_knows_the_specimen_as_it_was_built() {
         "{setting:?}"
     );
     // Ten upright triangles side by side, and nine between them: each has ten sites an edge, and one spacing to the next.
-    assert!((setting.length / (110.0 * spacing) - 1.0).abs() < ROUNDING, "{setting:?}");
+    assert!(
+        (setting.length / (110.0 * spacing) - 1.0).abs() < ROUNDING,
+        "{setting:?}"
+    );
     assert_eq!(setting.thickness, THICKNESS);
     assert!((SITE_AREA - 0.75_f64.sqrt()).abs() < ROUNDING);
 }
