@@ -1,10 +1,12 @@
+use std::path::Path;
+
 use serde_json::json;
 
 use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
-use super::{CliError, format};
-use crate::setup::Estimate;
+use super::{CliError, format, room};
+use crate::setup::{Estimate, cautions};
 
 /// `cgaft study check FILE`
 pub fn check(common: &Common) -> Result<u8, CliError> {
@@ -17,10 +19,14 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         .zip(&estimates)
         .collect();
     let cases: Vec<_> = sized.iter().map(|(name, estimate)| to_json(name, estimate)).collect();
-    let warnings: Vec<String> = sized
-        .iter()
-        .filter_map(|(name, estimate)| warning(name, estimate))
-        .collect();
+    let of_sizes = sized.iter().filter_map(|(name, estimate)| warning(name, estimate));
+    let of_methods = plan.cases.iter().flat_map(|planned| {
+        let cautions = cautions(&planned.case).into_iter();
+        cautions.map(|caution| format!("warning: {}: {caution}", planned.name))
+    });
+    let needed = estimates.iter().map(|estimate| estimate.disk_bytes).sum();
+    let of_disk = room::warning(Path::new("results"), needed);
+    let warnings: Vec<String> = of_sizes.chain(of_methods).chain(of_disk).collect();
     let json = json!({ "study": plan.study, "cases": cases, "warnings": warnings });
     let terminal = Terminal {
         quiet: false,
@@ -47,7 +53,7 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
 
 /// What the heads of the columns have no room for.
 const NOTES: &str = "left over: share of the atoms in smaller elements than asked for, because no larger one fits there
-disk: pictures and checkpoint, at most; about: wall time on one core
+disk: pictures, series and checkpoint, at most; about: wall time on one core
 ";
 
 const HEAD: [&str; 10] = [
