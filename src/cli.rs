@@ -14,6 +14,7 @@ mod new;
 mod plan;
 mod progress;
 mod report;
+mod room;
 mod run;
 mod schema;
 mod slurm_job;

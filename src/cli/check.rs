@@ -1,10 +1,12 @@
+use std::path::Path;
+
 use serde_json::json;
 
 use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
-use super::{CliError, format, specimen};
-use crate::setup::Estimate;
+use super::{CliError, format, room, specimen};
+use crate::setup::{Estimate, cautions};
 
 /// `cgaft study check FILE`
 pub fn check(common: &Common) -> Result<u8, CliError> {
@@ -22,11 +24,18 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         .iter()
         .zip(estimates.iter().map(|estimate| &estimate.specimen))
         .collect();
-    let mut warnings: Vec<String> = sized
-        .iter()
-        .filter_map(|(name, estimate)| warning(name, estimate))
+    let of_sizes = sized.iter().filter_map(|(name, estimate)| warning(name, estimate));
+    let of_methods = plan.cases.iter().flat_map(|planned| {
+        let cautions = cautions(&planned.case).into_iter();
+        cautions.map(|caution| format!("warning: {}: {caution}", planned.name))
+    });
+    let needed = estimates.iter().map(|estimate| estimate.disk_bytes).sum();
+    let of_disk = room::warning(Path::new("results"), needed);
+    let warnings: Vec<String> = of_sizes
+        .chain(specimen::warnings(&laid))
+        .chain(of_methods)
+        .chain(of_disk)
         .collect();
-    warnings.extend(specimen::warnings(&laid));
     let json = json!({ "study": plan.study, "cases": cases, "warnings": warnings });
     let terminal = Terminal {
         quiet: false,
@@ -56,7 +65,7 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
 }
 
 /// What the heads of the columns have no room for.
-const NOTES: &str = "disk: pictures and checkpoint, at most; about: wall time on one core
+const NOTES: &str = "disk: pictures, series and checkpoint, at most; about: wall time on one core
 ";
 
 const HEAD: [&str; 9] = [

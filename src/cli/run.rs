@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 use super::estimate::estimates;
 use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
-use super::terminal::Terminal;
-use super::{CliError, cluster, format, plan, report, specimen};
+use super::terminal::{self, Terminal};
+use super::{CliError, cluster, format, plan, report, room, specimen};
 use crate::executor::share::{Crew, Demand, Share, share};
 use crate::executor::{self, Ending, Errand, ExecutorError, Job, Settings, Stop, exit, launch, mpi, slurm};
 use crate::plan::{self as planning, PlannedCase};
@@ -85,6 +85,9 @@ pub fn run(arguments: &Arguments) -> Result<u8, CliError> {
     let prepared = prepare(&survey, &chosen, arguments)?;
     let stop = Stop::on_signals().map_err(|error| CliError::Environment(format!("cannot catch Ctrl-C: {error}")))?;
     tell_plan(&survey, &chosen, &prepared, arguments, terminal);
+    if let Some(warning) = room::warning(&arguments.place.results, prepared.disk) {
+        terminal::warn(&warning);
+    }
     let endings = compute(&survey, &prepared, arguments, &stop, terminal)?;
     let reasons: Vec<String> = survey.entries.iter().map(|entry| entry.reason.clone()).collect();
     survey.refresh();
@@ -129,6 +132,8 @@ pub fn chosen(survey: &Survey, only: &[String]) -> Result<Vec<usize>, CliError> 
 pub struct Prepared {
     pub jobs: Vec<Job>,
     pub share: Share,
+    /// What they may take of the disk, bytes.
+    pub disk: u64,
     /// Of this machine.
     pub cores: usize,
     /// Cases among them that are one computation.
@@ -172,9 +177,11 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
     // Cases side by side would disturb each other's time.
     let alone = survey.plan.compares_crews().then_some(1);
     let share = share(&demands, cores, arguments.crew.jobs.map(usize::from).or(alone));
+    let disk = estimates.iter().map(|estimate| estimate.disk_bytes).sum();
     Ok(Prepared {
         jobs,
         share,
+        disk,
         cores,
         warnings,
     })
@@ -324,8 +331,19 @@ fn link(survey: &Survey) -> Result<(), CliError> {
 
 fn conclusion(endings: &[Ending], report: Option<&Path>, code: u8) -> String {
     let Some(report) = report else {
+        let held_back = endings
+            .iter()
+            .filter(|ending| matches!(ending, Ending::NotStarted))
+            .count();
         return if code == exit::INTERRUPTED {
             "stopped; the same command goes on from the last checkpoints\n".to_owned()
+        } else if held_back > 0 {
+            format!(
+                "Slurm has {} of {} cases and no room for the others now; the same command hands them over when some have \
+                 ended, and without --detach as soon as they have\n",
+                endings.len() - held_back,
+                endings.len()
+            )
         } else {
             "Slurm has them; `cgaft study status` tells how far they are, and the same command without --detach waits \
              and builds the report\n"

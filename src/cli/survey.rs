@@ -172,9 +172,13 @@ fn with_job(state: &State, reason: &str, job: &Whereabouts) -> String {
     let id = &job.slurm_id;
     match (&job.sighting, state) {
         (Ok(Some(Sighting::Queued { why })), State::Partial(attempt)) => {
-            format!("queued as Slurm job {id} ({why}), goes on{}", at_step(attempt))
+            format!(
+                "queued as Slurm job {id} ({}), goes on{}",
+                slurm::reason(why),
+                at_step(attempt)
+            )
         }
-        (Ok(Some(Sighting::Queued { why })), _) => format!("queued as Slurm job {id} ({why})"),
+        (Ok(Some(Sighting::Queued { why })), _) => format!("queued as Slurm job {id} ({})", slurm::reason(why)),
         (Ok(Some(Sighting::Running)), State::Running(attempt) | State::Partial(attempt)) => {
             format!("running as Slurm job {id}{}", at_step(attempt))
         }

@@ -8,11 +8,13 @@ mod ending;
 pub mod job;
 mod script;
 mod ticket;
+mod waiting;
 mod watch;
 
 pub use commands::{Sighting, SlurmError};
 pub use script::{Script, Setting, scripts};
 pub use ticket::Ticket;
+pub use waiting::reason;
 pub use watch::{Settings, run};
 
 use std::collections::{BTreeSet, HashMap};

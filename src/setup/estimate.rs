@@ -27,7 +27,7 @@ pub struct Estimate {
     pub steps: u64,
     /// Of all ranks together.
     pub memory_bytes: u64,
-    /// Of its pictures and its checkpoint, at most: while the pictures are put together.
+    /// Of its pictures, its series and its checkpoint, at most: while they are put together.
     pub disk_bytes: u64,
     /// Wall time on one thread, s.
     pub seconds: f64,
@@ -231,15 +231,16 @@ fn estimate_with(
         stability_limit,
         steps,
         memory_bytes: census.memory() * u64::from(ranks(case)),
-        disk_bytes: disk(case, census, time),
+        disk_bytes: disk(case, census, material.spacing, time),
         seconds: SECONDS_A_RUN + seconds_of_probes + census.weigh(of_element) * steps as f64,
     })
 }
 
 /// Bytes on the disk of a run of so many ps. A picture has four doubles a node and an element; put together, it has six
 /// and seven singles, of which deflating may save little. A checkpoint has four doubles a node, and stands there twice
-/// while it is replaced.
-fn disk(case: &Case, census: &Census, time: f64) -> u64 {
+/// while it is replaced. A probe has some forty doubles and five for every bin of the profile, none narrower than two
+/// spacings, and stands there twice while the series is put together.
+fn disk(case: &Case, census: &Census, spacing: f64, time: f64) -> u64 {
     let case::Loading::StrainRate { rate, .. } = case.loading;
     let every = match case.snapshots.every {
         None => f64::INFINITY,
@@ -248,7 +249,8 @@ fn disk(case: &Case, census: &Census, time: f64) -> u64 {
     };
     let pictures = (time / every).floor() + 2.0;
     let [nodes, elements] = [census.node_count() as f64, census.element_count() as f64];
-    (pictures * (nodes * (32.0 + 24.0) + elements * (32.0 + 28.0)) + 64.0 * nodes) as u64
+    let series = (time / case.probes.every + 2.0) * 16.0 * (40.0 + 5.0 * 0.5 * case.specimen.length / spacing);
+    (pictures * (nodes * (32.0 + 24.0) + elements * (32.0 + 28.0)) + 64.0 * nodes + series) as u64
 }
 
 /// The stability limit of a perfect crystal of elements of one size, ps.

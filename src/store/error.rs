@@ -37,8 +37,15 @@ impl StoreError {
     }
 }
 
+/// Of Linux: no locks available.
+const NO_LOCKS: i32 = 37;
+
 fn advice(error: &io::Error) -> &'static str {
     match error.kind() {
+        _ if error.kind() == io::ErrorKind::Unsupported || error.raw_os_error() == Some(NO_LOCKS) => {
+            "this file system has no file locks, by which processes keep out of each other's runs: choose a folder on another \
+             one with --results DIR, or have it mounted with locks (Lustre: `flock`; NFS: with its lock service)"
+        }
         io::ErrorKind::PermissionDenied | io::ErrorKind::ReadOnlyFilesystem => {
             "make the folder writable, or choose another one with --results DIR"
         }
@@ -50,5 +57,19 @@ fn advice(error: &io::Error) -> &'static str {
             "a file is where a folder should be: move it away, or choose another folder with --results DIR"
         }
         _ => "check the disk, or choose another folder with --results DIR",
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_file_system_without_locks_is_told_as_one() {
+        const NOT_SUPPORTED: i32 = 95;
+        for code in [NO_LOCKS, NOT_SUPPORTED] {
+            let error = StoreError::write(Path::new("results/.locks/a"))(io::Error::from_raw_os_error(code));
+            assert!(error.to_string().contains("has no file locks"), "{error}");
+        }
     }
 }

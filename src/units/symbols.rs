@@ -156,11 +156,32 @@ fn find(name: &str) -> Option<Unit> {
 
 fn unknown(token: &str, expected: Dimension) -> UnitError {
     let token: String = token.chars().take(40).collect();
-    let hint = nearest(&token, expected).map_or_else(
-        || format!("{} is written such as {}", expected.noun(), expected.example()),
-        |near| format!("did you mean `{near}`?"),
-    );
+    let otherwise = || format!("{} is written such as {}", expected.noun(), expected.example());
+    let guessed = || nearest(&token, expected).map(|near| format!("did you mean `{near}`?"));
+    let hint = by_another_name(&token, expected)
+        .or_else(guessed)
+        .unwrap_or_else(otherwise);
     UnitError::UnknownUnit { unit: token, hint }
+}
+
+/// What people write who have learned it so, in the units that are read here.
+fn by_another_name(token: &str, expected: Dimension) -> Option<String> {
+    let other = match (token, expected) {
+        ("Hz", _) => "1 Hz is 1 /s",
+        ("kHz", _) => "1 kHz is 1e3 /s",
+        ("MHz", _) => "1 MHz is 1e6 /s",
+        ("GHz", _) => "1 GHz is 1e9 /s",
+        ("THz", _) => "1 THz is 1e12 /s",
+        ("mol", Dimension::Mass) => "1 g/mol is 1 u",
+        ("mol", Dimension::Energy) => "1 kJ/mol is 0.0103643 eV",
+        ("amu", _) => "1 amu is 1 u",
+        _ => return None,
+    };
+    Some(format!(
+        "{other}; {} is written such as {}",
+        expected.noun(),
+        expected.example()
+    ))
 }
 
 /// The common unit most like `token`: letters matter most, then the dimension, then capitals.

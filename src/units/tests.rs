@@ -153,3 +153,36 @@ proptest! {
         let _ = parse(&text, Dimension::ALL[kind]);
     }
 }
+
+#[test]
+fn units_that_go_by_another_name_here_are_told_as_what_they_are() {
+    for (text, dimension, told) in [
+        (
+            "1e9 Hz",
+            Rate,
+            "`Hz` is not a unit; 1 Hz is 1 /s; a rate is written such as 4.6e6 /s",
+        ),
+        (
+            "1 GHz",
+            Rate,
+            "`GHz` is not a unit; 1 GHz is 1e9 /s; a rate is written such as 4.6e6 /s",
+        ),
+        (
+            "63.5 g/mol",
+            Mass,
+            "`mol` is not a unit; 1 g/mol is 1 u; a mass is written such as 802 u",
+        ),
+        (
+            "40 kJ/mol",
+            Energy,
+            "`mol` is not a unit; 1 kJ/mol is 0.0103643 eV; an energy is written such as 0.415 eV",
+        ),
+    ] {
+        assert_eq!(message(text, dimension), told);
+    }
+    // Half a unit of its last digit.
+    const SIX_DIGITS: f64 = 5e-6;
+    // CODATA 2022: the constant of Avogadro.
+    let of_a_mole = 1e3 / 6.022_140_76e23 / EV_IN_JOULE;
+    assert!((of_a_mole / 0.0103643 - 1.0).abs() < SIX_DIGITS);
+}

@@ -20,6 +20,11 @@ pub enum SlurmError {
     )]
     Refused { program: &'static str, words: String },
     #[error(
+        "{source}. {submitted} cases were submitted before that and run on: `cgaft study status` tells how far they are, \
+         `cgaft study cancel` ends them"
+    )]
+    Halfway { submitted: usize, source: Box<SlurmError> },
+    #[error(
         "`{program}` answered `{answer}`, which is nothing that it should say; is another program of that name \
          first on the PATH? Jobs that were submitted run on"
     )]
@@ -36,6 +41,26 @@ pub enum Sighting {
     Running,
     /// With Slurm's word for how, such as `TIMEOUT`.
     Ended(String),
+}
+
+impl SlurmError {
+    /// Whether there are as many jobs as Slurm takes of this user or at all, so that there is room when some have ended.
+    pub fn is_for_want_of_room(&self) -> bool {
+        let Self::Refused { words, .. } = self else {
+            return false;
+        };
+        // `AssocMaxSubmitJobLimit`, `QOSMaxSubmitJobPerUserLimit`, `AssocGrpSubmitJobsLimit`; or what older ones say of any.
+        let by_name = words.contains("SubmitJob") && words.contains("Limit");
+        by_name || words.contains("job submit limit") || words.contains("temporarily unable to accept job")
+    }
+
+    /// What Slurm itself said, in one line.
+    pub fn words(&self) -> String {
+        match self {
+            Self::Refused { words, .. } => words.lines().map(str::trim).collect::<Vec<_>>().join(" "),
+            other => other.to_string(),
+        }
+    }
 }
 
 /// Hands over a script; the number of its array.
@@ -177,6 +202,23 @@ mod tests {
         );
         let ended = sighting("12_3|OUT_OF_MEMORY|OutOfMemory").map(|seen| seen.1);
         assert_eq!(ended, Some(Sighting::Ended("OUT_OF_MEMORY".to_owned())));
+    }
+
+    #[test]
+    fn a_limit_of_jobs_is_told_from_other_refusals() {
+        let refused = |words: &str| SlurmError::Refused {
+            program: "sbatch",
+            words: words.to_owned(),
+        };
+        for words in [
+            "sbatch: error: QOSMaxSubmitJobPerUserLimit",
+            "sbatch: error: AssocGrpSubmitJobsLimit",
+            "sbatch: error: Batch job submission failed: Job violates accounting/QOS policy (job submit limit, user's size \
+             and/or time limits)",
+        ] {
+            assert!(refused(words).is_for_want_of_room(), "{words}");
+        }
+        assert!(!refused("sbatch: error: invalid partition specified: nowhere").is_for_want_of_room());
     }
 
     #[test]

@@ -31,6 +31,12 @@ impl Ticket {
         let text = serde_json::to_vec_pretty(self).expect("a ticket has a JSON form");
         Ok(store::write(&path, &text)?)
     }
+
+    /// Takes it back: Slurm would not have it.
+    pub fn withdraw(&self, store: &Store) -> Result<(), ExecutorError> {
+        let path = path(store, &self.job.id);
+        Ok(fs::remove_file(&path).map_err(|source| StoreError::Write { path, source })?)
+    }
 }
 
 /// Where a job's own output goes: what its shell and its node say.

@@ -1,18 +1,16 @@
 //! Hands cases over and watches them until the last has ended, or until the one who asked has seen enough.
 
-use std::collections::HashMap;
+mod hand_over;
+
 use std::thread;
 use std::time::{Duration, Instant};
 
-use jiff::Timestamp;
-
 use super::commands::{self, Sighting};
-use super::script::{Setting, scripts};
-use super::{Ticket, ending, job_name, ticket};
-use crate::executor::queue::{starts_over, tail_of};
-use crate::executor::share::Crew;
+use super::script::Setting;
+use super::{Ticket, ending, job_name, ticket, waiting};
+use crate::executor::queue::tail_of;
 use crate::executor::{Ending, Errand, ExecutorError, Job, Stop};
-use crate::store::{State, Store};
+use crate::store::State;
 
 #[derive(Clone, Debug)]
 pub struct Settings {
@@ -65,6 +63,9 @@ struct Watch<'a> {
     settings: &'a Settings,
     cases: Vec<Case>,
     unanswered: u32,
+    /// When Slurm last had no room for a job, and it was not known that there is some again.
+    full: Option<Instant>,
+    submitted: usize,
 }
 
 /// A case that has not ended.
@@ -76,6 +77,8 @@ struct Case {
     sighting: Option<Sighting>,
     /// Looks since it left the queue.
     missed: u32,
+    /// Whether the watcher knows that Slurm had no room for it.
+    told_full: bool,
 }
 
 impl<'a> Watch<'a> {
@@ -85,79 +88,15 @@ impl<'a> Watch<'a> {
             ticket: None,
             sighting: None,
             missed: 0,
+            told_full: false,
         };
         Watch {
             cases: (0..errand.jobs.len()).map(case).collect(),
             errand,
             settings,
             unanswered: 0,
-        }
-    }
-
-    /// Submits what nobody works on and what no job of before waits for.
-    fn hand_over(&mut self, stop: &Stop) -> Result<(), ExecutorError> {
-        let without: Vec<usize> = self
-            .cases
-            .iter()
-            .filter(|case| case.ticket.is_none())
-            .map(|case| case.job)
-            .collect();
-        if without.is_empty() || stop.requested() {
-            return Ok(());
-        }
-        let _lock = self.errand.store.lock_submission()?;
-        let seen = commands::sightings(&job_name(&self.settings.study))?;
-        let mut free = without;
-        free.retain(|&job| !self.find_again(job, &seen) && !self.is_busy(job));
-        let (store, jobs, settings) = (self.errand.store, self.errand.jobs, self.settings);
-        for script in scripts(store, &settings.study, jobs, &free, &settings.setting) {
-            let ticket = |&job: &usize| ticket_for(store, &jobs[job], script.crew);
-            let tickets: Vec<Ticket> = script.jobs.iter().map(ticket).collect();
-            // The jobs may begin before `sbatch` has ended.
-            tickets.iter().try_for_each(|ticket| ticket.write(store))?;
-            let number = commands::submit(&script.to_string())?;
-            for (task, (ticket, &job)) in tickets.into_iter().zip(&script.jobs).enumerate() {
-                let slurm_id = script.slurm_id(number, task);
-                self.errand.watcher.submitted(&jobs[job], &slurm_id);
-                let ticket = Ticket {
-                    slurm_id: Some(slurm_id.clone()),
-                    ..ticket
-                };
-                ticket.write(store)?;
-                self.follow(job, ticket, slurm_id);
-            }
-        }
-        Ok(())
-    }
-
-    /// Whether another process computes it, of which the watcher is told once.
-    fn is_busy(&mut self, job: usize) -> bool {
-        let busy = matches!(self.errand.store.state(&self.errand.jobs[job].id), State::Running(_));
-        if busy {
-            self.errand.tell_busy(job);
-        }
-        busy
-    }
-
-    /// Whether a job of before waits for this case or computes it.
-    fn find_again(&mut self, job: usize, seen: &HashMap<String, Sighting>) -> bool {
-        let Some(ticket) = Ticket::read(self.errand.store, &self.errand.jobs[job].id) else {
-            return false;
-        };
-        let Some(slurm_id) = ticket.slurm_id.clone() else {
-            return false;
-        };
-        let live = matches!(seen.get(&slurm_id), Some(Sighting::Queued { .. } | Sighting::Running));
-        if live {
-            self.follow(job, ticket, slurm_id);
-        }
-        live
-    }
-
-    fn follow(&mut self, job: usize, ticket: Ticket, slurm_id: String) {
-        self.errand.endings[job] = Ending::HandedOver(slurm_id);
-        if let Some(case) = self.cases.iter_mut().find(|case| case.job == job) {
-            case.ticket = Some(ticket);
+            full: None,
+            submitted: 0,
         }
     }
 
@@ -191,6 +130,7 @@ impl<'a> Watch<'a> {
             changed |= self.tell(position, sighting);
             if let Some(ending) = self.ending(position, stop)? {
                 self.errand.end(self.cases.remove(position).job, ending);
+                self.full = None;
                 changed = true;
             }
         }
@@ -203,7 +143,7 @@ impl<'a> Watch<'a> {
         let job = &self.errand.jobs[case.job];
         let news = case.sighting != sighting;
         match &sighting {
-            Some(Sighting::Queued { why }) if news => self.errand.watcher.queued(job, why),
+            Some(Sighting::Queued { why }) if news => self.errand.watcher.queued(job, &waiting::reason(why)),
             Some(Sighting::Running) => {
                 if news {
                     self.errand.watcher.started(job);
@@ -237,7 +177,8 @@ impl<'a> Watch<'a> {
             let done = matches!(&state, State::Done(manifest) if job.fresh.is_none_or(|since| manifest.ended >= since));
             return Ok(match state {
                 State::Done(manifest) if done => Some(Ending::DoneElsewhere(manifest)),
-                _ => None,
+                State::Running(_) => None,
+                _ => stop.requested().then_some(Ending::NotStarted),
             });
         };
         match state {
@@ -270,22 +211,6 @@ impl<'a> Watch<'a> {
         let said = tail_of(&ticket::output(self.errand.store, slurm_id));
         let failure = claim.fail(None, ending::meaning(slurm_id, word), said)?;
         Ok(Some(Ending::Failed(Box::new(failure))))
-    }
-}
-
-/// A case that starts over says so with its time, so that a job that comes back to the queue does not start over again.
-fn ticket_for(store: &Store, job: &Job, crew: Crew) -> Ticket {
-    let submitted = Timestamp::now();
-    let over = job.fresh.is_some() || starts_over(&store.state(&job.id));
-    Ticket {
-        job: Job {
-            fresh: over.then_some(submitted),
-            ranks: Some(crew.ranks),
-            ..job.clone()
-        },
-        threads: crew.threads,
-        submitted,
-        slurm_id: None,
     }
 }
 

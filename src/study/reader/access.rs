@@ -86,6 +86,13 @@ impl<'a> Entries<'a> {
         let message = format!("`{}` is not a key of {within}", shortened(key.text()));
         let meant = nearest(key.text(), fields);
         let help = match value.value {
+            // `{length: 30,5 nm}` is a length and a key without a value.
+            Value::Null if meant.is_none() && key.text().starts_with(|first: char| first.is_ascii_digit()) => {
+                format!(
+                    "a number has a point, not a comma: write it as in 1.{}",
+                    shortened(key.text())
+                )
+            }
             // `{title: Atoms, and elements}` is a title and a key without a value.
             Value::Null if meant.is_none() => "a text with a comma in it must stand in quotes".into(),
             _ => suggestion(key.text(), fields),

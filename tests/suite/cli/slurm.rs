@@ -2,6 +2,7 @@
 
 mod arrays;
 mod refusals;
+mod room;
 mod stopping;
 
 use std::fs;
