@@ -107,9 +107,10 @@ pub fn warnings(cases: &[Laid]) -> Vec<String> {
 
 /// The cases that are computed on one mesh with one notch and are loaded alike.
 pub fn one_computation(cases: &[Laid]) -> Vec<String> {
-    let mut groups: Vec<((u64, Option<u32>, Option<u32>), Vec<&str>)> = Vec::new();
-    for (planned, specimen) in cases {
-        let key = (specimen.computation, planned.id.ranks, planned.id.threads);
+    let key = |(planned, specimen): &Laid| (specimen.computation, planned.id.ranks, planned.id.threads);
+    let mut groups: Vec<(_, Vec<&str>)> = Vec::new();
+    for laid @ (planned, _) in cases {
+        let key = key(laid);
         match groups.iter_mut().find(|(known, _)| *known == key) {
             Some((_, names)) => names.push(&planned.name),
             None => groups.push((key, vec![&planned.name])),

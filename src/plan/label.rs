@@ -49,6 +49,6 @@ fn whole(value: &Node) -> Option<String> {
             joined(entries.iter().map(entry).collect())
         }
         Value::List(items) => joined(items.iter().map(whole).collect()),
-        _ => None,
+        Value::Null => None,
     }
 }

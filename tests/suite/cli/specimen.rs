@@ -37,10 +37,10 @@ fn widths_that_become_one_mesh_are_told_with_all_their_names() {
 
 #[test]
 fn notches_that_sever_the_same_bonds_are_one_computation() {
-    // A tenth of the distance between two bonds.
-    let told = checked(&swept("crack.length: [46 nm, 46.01 nm, 47 nm]"));
+    // Between two places at which bonds of the three nearest shells cross the plane.
+    let told = checked(&swept("crack.length: [46.02 nm, 46.05 nm, 47 nm]"));
     assert!(
-        told.contains("warning: length-46nm, length-46.01nm: one computation under several names"),
+        told.contains("warning: length-46.02nm, length-46.05nm: one computation under several names"),
         "{told}"
     );
 }
