@@ -6,8 +6,8 @@ use std::path::PathBuf;
 use super::run::{Arguments, Prepared};
 use super::survey::Survey;
 use super::{CliError, format};
-use crate::executor::launch;
 use crate::executor::slurm::{Script, Setting, commands, scripts};
+use crate::executor::{Ending, launch};
 use crate::study::cluster::read_profile;
 
 /// Resources of the study, and where it leaves them open, of the profile.
@@ -49,6 +49,25 @@ pub fn summary(survey: &Survey, prepared: &Prepared) -> String {
         (new, there) => format!(
             "{} to run as jobs of Slurm, {there} there already",
             format::count(new, "case")
+        ),
+    }
+}
+
+/// What became of cases that nobody waits for.
+pub fn handed_over(endings: &[Ending]) -> String {
+    let all = endings.len();
+    let held_back = endings
+        .iter()
+        .filter(|ending| matches!(ending, Ending::NotStarted))
+        .count();
+    match held_back {
+        0 => "Slurm has them; `cgaft study status` tells how far they are, and the same command without --detach waits and \
+              builds the report\n"
+            .to_owned(),
+        _ => format!(
+            "Slurm has {} of {all} cases and no room for the others now; the same command hands them over when some have \
+             ended, and without --detach as soon as they have\n",
+            all - held_back
         ),
     }
 }

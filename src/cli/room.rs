@@ -3,11 +3,17 @@
 use std::path::Path;
 
 use super::format;
+use super::terminal::warn;
 use crate::executor::probe;
 
 /// A warning where results of so many bytes, by estimate and at most, do not fit on the disk of a folder.
 pub fn warning(results: &Path, needed: u64) -> Option<String> {
     warning_of(probe::free_disk(results)?, needed)
+}
+
+/// Tells of it before anything is started.
+pub fn tell(results: &Path, needed: u64) {
+    warning(results, needed).iter().for_each(|warning| warn(warning));
 }
 
 fn warning_of(free: u64, needed: u64) -> Option<String> {

@@ -8,7 +8,7 @@ use serde_json::{Value, json};
 use super::estimate::estimates;
 use super::progress;
 use super::survey::{self, Common, Entry, Place, Survey};
-use super::terminal::{self, Terminal};
+use super::terminal::Terminal;
 use super::{CliError, cluster, format, plan, report, room};
 use crate::executor::share::{Crew, Demand, Share, share};
 use crate::executor::{self, Ending, Errand, ExecutorError, Job, Settings, Stop, exit, launch, mpi, slurm};
@@ -85,9 +85,7 @@ pub fn run(arguments: &Arguments) -> Result<u8, CliError> {
     let prepared = prepare(&survey, &chosen, arguments)?;
     let stop = Stop::on_signals().map_err(|error| CliError::Environment(format!("cannot catch Ctrl-C: {error}")))?;
     tell_plan(&survey, &chosen, &prepared, arguments, terminal);
-    if let Some(warning) = room::warning(&arguments.place.results, prepared.disk) {
-        terminal::warn(&warning);
-    }
+    room::tell(&arguments.place.results, prepared.disk);
     let endings = compute(&survey, &prepared, arguments, &stop, terminal)?;
     let reasons: Vec<String> = survey.entries.iter().map(|entry| entry.reason.clone()).collect();
     survey.refresh();
@@ -322,23 +320,9 @@ fn link(survey: &Survey) -> Result<(), CliError> {
 
 fn conclusion(endings: &[Ending], report: Option<&Path>, code: u8) -> String {
     let Some(report) = report else {
-        let held_back = endings
-            .iter()
-            .filter(|ending| matches!(ending, Ending::NotStarted))
-            .count();
-        return if code == exit::INTERRUPTED {
-            "stopped; the same command goes on from the last checkpoints\n".to_owned()
-        } else if held_back > 0 {
-            format!(
-                "Slurm has {} of {} cases and no room for the others now; the same command hands them over when some have \
-                 ended, and without --detach as soon as they have\n",
-                endings.len() - held_back,
-                endings.len()
-            )
-        } else {
-            "Slurm has them; `cgaft study status` tells how far they are, and the same command without --detach waits \
-             and builds the report\n"
-                .to_owned()
+        return match code {
+            exit::INTERRUPTED => "stopped; the same command goes on from the last checkpoints\n".to_owned(),
+            _ => cluster::handed_over(endings),
         };
     };
     let failed = endings
