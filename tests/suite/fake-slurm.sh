@@ -1,7 +1,7 @@
 #!/bin/bash
 # Stands in for Slurm under the names of its commands; jobs are processes of this machine, their states files in $FAKE_SLURM.
 # FAKE_STATE='TIMEOUT|TimeLimit' leaves every job in that state and never starts it (`vanish`: in none);
-# FAKE_ROOM is how many jobs may wait or run at once; FAKE_REFUSE refuses every script, FAKE_REFUSE_AFTER all after so many; FAKE_MAX_ARRAY is the longest array; FAKE_GARBAGE makes squeue babble. A file `silent` there makes squeue fail; a file
+# FAKE_FULL='1 3' are the submissions for which there is no room; FAKE_REFUSE refuses every script, FAKE_REFUSE_AFTER all after so many; FAKE_MAX_ARRAY is the longest array; FAKE_GARBAGE makes squeue babble. A file `silent` there makes squeue fail; a file
 # `accounting` is what sacct answers.
 state=$FAKE_SLURM
 put() {
@@ -20,18 +20,16 @@ sbatch)
         echo "sbatch: error: invalid account" >&2
         exit 1
     fi
+    if [[ " ${FAKE_FULL:-} " == *" $(wc -l <"$state/submissions") "* ]]; then
+        echo "sbatch: error: QOSMaxSubmitJobPerUserLimit" >&2
+        echo "sbatch: error: Batch job submission failed: Job violates accounting/QOS policy" >&2
+        exit 1
+    fi
     array=$((100 + $(find "$state" -name '*.sh' | wc -l)))
     script=$state/$array.sh
     cat >"$script"
     only=$(grep -q '^#SBATCH --array=' "$script" || echo "$array")
     last=$(sed -n 's/^#SBATCH --array=0-\([0-9]*\).*/\1/p' "$script")
-    live=$(cd "$state" && grep -lE 'PENDING|RUNNING' [0-9]* 2>/dev/null | grep -cvF . || true)
-    if [ $((live + ${last:-0} + 1)) -gt "${FAKE_ROOM:-1000}" ]; then
-        rm "$script"
-        echo "sbatch: error: QOSMaxSubmitJobPerUserLimit" >&2
-        echo "sbatch: error: Batch job submission failed: Job violates accounting/QOS policy" >&2
-        exit 1
-    fi
     output=$(sed -n 's/^#SBATCH --output="\(.*\)"$/\1/p' "$script")
     for task in $(seq 0 "${last:-0}"); do
         id=${only:-${array}_$task}
