@@ -7,8 +7,8 @@ pub fn cautions(case: &Case) -> Vec<String> {
     match case.run.summation {
         Summation::Exact | Summation::StrictGauss { .. } => vec![],
         Summation::Gauss { points } => vec![format!(
-            "`summation: {{gauss: {points}}}` looks at some bonds of a string only: once bonds part the energy may drift, by \
-             2 % of the work with two points; the report tells by how much"
+            "`summation: {{gauss: {points}}}` looks at some bonds of a string only: once bonds part the energy may drift; \
+             the report tells by how much"
         )],
         Summation::Nodal => vec![
             "`summation: nodal` fails the patch test: uncracked it is 43 % too soft with 10 atoms an edge (2.20 against \
