@@ -61,8 +61,7 @@ pub fn analyse(series: &Series, setting: &Setting) -> Findings {
     };
     let initiation = initiation::initiation(&history.tips, series, setting);
     let window = speed::window(series, setting);
-    let joined: Vec<usize> = history.joins.iter().map(|join| join.probe).collect();
-    let speeds = speed::speeds(&history.tips, series, initiation, window, &joined, setting);
+    let speeds = speed::speeds(&history.tips, series, initiation, window, &history.joined(), setting);
     let before = initiation.and_then(|start| start.probe.checked_sub(1));
     let near_tip = before.map(|probe| stress_intensity::near_tip(series, probe, history.tips[probe], setting));
     let from_j = before.map(|probe| stress_intensity::from_j(series, probe, setting));

@@ -19,6 +19,13 @@ pub struct History {
     pub parted_elsewhere: Option<PartedElsewhere>,
 }
 
+impl History {
+    /// The probes at which the crack joins one ahead of it.
+    pub fn joined(&self) -> Vec<usize> {
+        self.joins.iter().map(|join| join.probe).collect()
+    }
+}
+
 /// An arm of the crack at the end of the run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Branch {

@@ -4,7 +4,6 @@ use cgaft::analysis::history::history;
 use cgaft::analysis::initiation::initiation;
 use cgaft::analysis::speed::{speeds, window};
 use cgaft::mesh::cut::Crack;
-use cgaft::mesh::cut::Crack;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::solver::Until;
@@ -39,7 +38,14 @@ fn a_crack_in_mode_i_runs_slower_than_surface_waves() {
     let setting = solver.setting();
     let history = history(&series, setting).expect("there is a crack");
     let start = initiation(&history.tips, &series, setting);
-    let speeds = speeds(&history.tips, &series, start, window(&series, setting), setting);
+    let speeds = speeds(
+        &history.tips,
+        &series,
+        start,
+        window(&series, setting),
+        &history.joined(),
+        setting,
+    );
     let fastest = speeds
         .into_iter()
         .flatten()
