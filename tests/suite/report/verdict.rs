@@ -2,6 +2,7 @@
 
 use cgaft::report::Study;
 
+use super::super::synthetic::{breaks, straight};
 use super::{finished, text, three_meshes, written};
 
 #[test]
@@ -54,6 +55,32 @@ fn an_energy_error_that_counts_is_told_first() {
     let told = "the energy error of coarse is 2.2 % of the work.";
     assert!(study(0.022).contains(told));
     assert!(!study(0.009).contains("Beware"));
+}
+
+#[test]
+fn a_specimen_that_parts_away_from_its_crack_is_told_first() {
+    let told = |rows_up: i32| {
+        let mut study = three_meshes();
+        let band = straight(0.0, 400.0);
+        let lifted: Vec<[i32; 3]> = band
+            .iter()
+            .map(|&[column, row, direction]| [column - rows_up / 2, row + rows_up, direction])
+            .collect();
+        study.cases[0].series.bonds = breaks(&lifted, 30);
+        text(&written(&study), "report.html")
+    };
+    // The grips are 65 spacings, 75 rows, from the crack plane.
+    let expected = [
+        (70, "coarse parted away from its crack, at the upper grip, at 0.21"),
+        (-70, "at the lower grip"),
+        (50, "in its upper half, 11.1 nm from the crack plane"),
+    ];
+    for (rows_up, words) in expected {
+        let page = told(rows_up);
+        assert!(page.contains(words), "no `{words}` in {page}");
+    }
+    let untouched = text(&written(&three_meshes()), "report.html");
+    assert!(!untouched.contains("parted away"), "{untouched}");
 }
 
 #[test]
