@@ -1,7 +1,7 @@
 //! Crack speed over time with what happens to it: one chart a case whose crack starts.
 
 use super::super::tables::{path_name, wave_name};
-use super::super::{Analysed, branching};
+use super::super::{Analysed, branching, events};
 use crate::analysis::waves::{Arrival, Face, Wave};
 use crate::report::chart::{Chart, Content, Curve};
 use crate::report::palette;
@@ -13,6 +13,7 @@ const BEYOND: f64 = 0.4;
 /// Styles of the other lines: in colours that no wave has.
 const START: usize = palette::style(4, 0);
 const BRANCH: usize = palette::style(1, 1);
+const LEAVES_PLANE: usize = palette::style(6, 1);
 
 /// One colour a wave and one dash a face, in all figures.
 fn style(arrival: &Arrival) -> usize {
@@ -28,7 +29,7 @@ fn style(arrival: &Arrival) -> usize {
     palette::style(color, dash)
 }
 
-/// A chart for every case in which the crack starts, and branches or meets a wave.
+/// A chart for every case in which the crack starts, and leaves its plane, branches or meets a wave.
 pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
     let cases = cases.iter().enumerate();
     cases.filter_map(|(index, case)| chart(index, case)).collect()
@@ -36,12 +37,15 @@ pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
 
 fn chart(index: usize, case: &Analysed) -> Option<Chart> {
     let start = case.findings.initiation?.time;
-    let branch = branching::after_start(case);
+    let marks = [
+        (LEAVES_PLANE, "leaves the plane", events::leaves_after_start(case)),
+        (BRANCH, "first branch", branching::after_start(case)),
+    ];
     let rayleigh = case.rayleigh_speed()?;
     let mut arrivals: Vec<(&Arrival, f64)> = branching::at_running_tip(case).collect();
     arrivals.sort_by(|a, b| a.1.total_cmp(&b.1));
     let times = arrivals.iter().map(|arrival| arrival.1);
-    let last = times.chain(branch).reduce(f64::max)?;
+    let last = times.chain(marks.iter().filter_map(|mark| mark.2)).reduce(f64::max)?;
     let rows = case.result.series.probes.iter().zip(&case.findings.speeds);
     let shown = -BEFORE * last..(1.0 + BEYOND) * last;
     let rows = rows.filter(|(row, _)| shown.contains(&(row.time - start)));
@@ -67,7 +71,8 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
         },
         mark(START, "start".to_owned(), 0.0),
     ];
-    curves.extend(branch.map(|branch| mark(BRANCH, "first branch".to_owned(), branch)));
+    let marks = marks.into_iter();
+    curves.extend(marks.filter_map(|(style, label, time)| Some(mark(style, label.to_owned(), time?))));
     let waves = arrivals.into_iter().map(|(arrival, time)| {
         let from = path_name(arrival).replace(" faces", "").replace(" face", "");
         mark(style(arrival), format!("{}, {from}", wave_name(arrival)), time)
@@ -79,7 +84,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
         table: "crack_speed",
         title: format!("Crack speed of {}, branching and returning waves", case.name()),
         caption: "Speed of the foremost tip over the Rayleigh speed; time counts from the start of the crack. Vertical lines: \
-                  its start, its first branch if it has one, and when waves sent out at the start are back at the running tip by \
+                  its start, when it leaves its plane and its first branch if it has them, and when waves sent out at the start are back at the running tip by \
                   their speeds; those that come after the end of the run are not shown. A wave has one colour, a face one kind of line. \
                   The band is the standard error of the speed."
             .to_owned(),
