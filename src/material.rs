@@ -114,6 +114,15 @@ mod tests {
     }
 
     #[test]
+    fn a_bond_is_broken_at_the_cutoff_or_else_one_and_a_half_spacings_apart() {
+        // The spacings printed above.
+        for (cutoff, expected) in [(1.5, 1.5), (2.0, 1.5 * 1.115934), (2.5, 1.5 * 1.113201)] {
+            let found = lennard_jones(cutoff).breaking_length();
+            assert!((found / expected - 1.0).abs() < PRINTED_DIGITS, "{found} at {cutoff}");
+        }
+    }
+
+    #[test]
     fn central_forces_give_a_triangular_sheet_a_poisson_ratio_of_a_third_at_any_range() {
         for cutoff in [1.5, 2.0, 2.5, 4.0] {
             let ratio = Elasticity::of(&lennard_jones(cutoff)).poisson_ratio();

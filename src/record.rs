@@ -10,6 +10,7 @@
 
 mod arrays;
 mod aside;
+mod bonds;
 pub mod checkpoint;
 mod cut_back;
 mod error;

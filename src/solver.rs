@@ -103,6 +103,8 @@ pub struct Solver {
     snapshots: Schedule,
     broken: Vec<[i32; 3]>,
     tracker: Option<Tracker>,
+    /// The probes at which the crack joined one ahead of it, if the run is to end after a branch.
+    joins: Vec<u32>,
     stop: stop::Watch,
     cost: Cost,
 }
@@ -188,6 +190,7 @@ impl Solver {
             snapshots,
             broken: Vec::new(),
             tracker,
+            joins: Vec::new(),
             stop,
             cost,
         })

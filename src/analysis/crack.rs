@@ -132,19 +132,25 @@ impl Tracker {
         }
     }
 
-    /// Bonds beyond the notch that a crack has parted, also where its faces touch: (column, row, direction), ascending.
-    pub fn parted(&self) -> Vec<[i32; 3]> {
-        let bonds = |cell: usize| {
-            let place = self.cells[cell].place;
-            self.sides(cell).map(move |(direction, _)| place.across(direction).0)
+    /// Bonds beyond the notch that a crack has parted, also where its faces touch, and the probes at which they broke,
+    /// ascending (column, row, direction).
+    pub fn parted(&self) -> Vec<BondEvent> {
+        let bonds = |cell: &Cell| {
+            let Cell { place, opened, .. } = *cell;
+            let sides = (0..3u8).zip(opened).filter(|side| side.1 != INTACT);
+            sides.map(move |(direction, probe)| (place.across(direction).0, probe))
         };
-        let upright = (0..self.cells.len()).filter(|&cell| self.cells[cell].place.upright);
-        let mut parted: Vec<_> = upright
-            .flat_map(bonds)
-            .filter(|&bond| !self.notch.is_cut(bond))
-            .map(|bond| [bond.column, bond.row, i32::from(bond.direction)])
-            .collect();
-        parted.sort_unstable();
+        let upright = self.cells.iter().filter(|cell| cell.place.upright);
+        let beyond = upright.flat_map(bonds).filter(|&(bond, _)| !self.notch.is_cut(bond));
+        let event = |(bond, probe): (Bond, u32)| BondEvent {
+            probe,
+            column: bond.column,
+            row: bond.row,
+            direction: bond.direction,
+            broken: true,
+        };
+        let mut parted: Vec<BondEvent> = beyond.map(event).collect();
+        parted.sort_unstable_by_key(|event| (event.column, event.row, event.direction));
         parted
     }
 

@@ -140,9 +140,6 @@ pub fn history(series: &Series, setting: &Setting) -> Option<History> {
 }
 
 fn join(tracker: &Tracker, probe: usize, row: &Probe, [from, to]: [Tip; 2], setting: &Setting) -> Option<Join> {
-    if to.x <= from.x {
-        return None;
-    }
     let joined = tracker.joined(from, probe as u32, spur(setting))?;
     Some(Join {
         probe,
@@ -176,6 +173,7 @@ fn branches(tracker: &Tracker, joins: &[Join], grown: u32, series: &Series, sett
     };
     let end = series.probes.last().map_or(0.0, |probe| probe.time);
     let spur = spur(setting);
+    let joins: Vec<u32> = joins.iter().map(|join| join.probe as u32).collect();
     let patience = spur as f64 * setting.spacing / (ARREST_SPEED * setting.rayleigh_speed);
     branches::arms(tracker, spur)
         .into_iter()
@@ -196,7 +194,7 @@ fn branches(tracker: &Tracker, joins: &[Join], grown: u32, series: &Series, sett
                 y: arm.y,
                 angle: arm.angle,
                 arrested: end - grown > patience,
-                joined: arm.parent.is_some() && joins.iter().any(|join| join.probe == arm.born as usize),
+                joined: arm.parent.is_some() && !arm.is_branch(&joins),
             })
         })
         .collect()

@@ -5,7 +5,8 @@ use std::path::Path;
 use hdf5::Group;
 
 use super::RecordError;
-use super::arrays::{Packing, get, get_rows, get_scalar, put, put_scalar};
+use super::arrays::{Packing, get, get_rows, get_scalar, new_group, put, put_scalar};
+use super::bonds::{get_bonds, put_bonds};
 use super::sealed::{self, Seal};
 use crate::solver::checkpoint::Checkpoint;
 
@@ -23,7 +24,7 @@ pub fn read(path: &Path, case_id: &str) -> Result<Checkpoint, RecordError> {
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 5,
+        format: 6,
         case_id,
     }
 }
@@ -45,6 +46,7 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
         peak_imbalance,
         broken_bonds,
         parted_bonds,
+        joins,
         probes,
         snapshots,
         last_advance,
@@ -63,24 +65,19 @@ fn put_checkpoint(group: &Group, checkpoint: &Checkpoint) -> hdf5::Result<()> {
     ] {
         put(group, name, unit, &[numbers.len()], numbers, Packing::Plain)?;
     }
+    for (name, numbers) in [("open_interfaces", open_interfaces), ("joins", joins)] {
+        put(group, name, "1", &[numbers.len()], numbers, Packing::Plain)?;
+    }
+    let broken = broken_bonds.as_flattened();
     put(
         group,
-        "open_interfaces",
+        "broken_bonds",
         "1",
-        &[open_interfaces.len()],
-        open_interfaces,
+        &[broken_bonds.len(), 3],
+        broken,
         Packing::Plain,
     )?;
-    for (name, bonds) in [("broken_bonds", broken_bonds), ("parted_bonds", parted_bonds)] {
-        put(
-            group,
-            name,
-            "1",
-            &[bonds.len(), 3],
-            bonds.as_flattened(),
-            Packing::Plain,
-        )?;
-    }
+    put_bonds(&new_group(group, "parted_bonds")?, parted_bonds)?;
     for (name, count) in [("step", step), ("probes", probes), ("snapshots", snapshots)] {
         put_scalar(group, name, "1", *count)?;
     }
@@ -123,7 +120,8 @@ fn get_checkpoint(group: &Group) -> hdf5::Result<Checkpoint> {
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,
         broken_bonds: get_rows(group, "broken_bonds")?,
-        parted_bonds: get_rows(group, "parted_bonds")?,
+        parted_bonds: get_bonds(&group.group("parted_bonds")?)?,
+        joins: get(group, "joins")?,
         probes: get_scalar(group, "probes")?,
         snapshots: get_scalar(group, "snapshots")?,
         last_advance: get_scalar(group, "last_advance")?,

@@ -2,6 +2,7 @@
 
 use std::mem::swap;
 
+use crate::analysis::series::BondEvent;
 use crate::state::State;
 
 /// State of a run between two steps. Internal units (nm, ps, eV).
@@ -32,8 +33,11 @@ pub struct Checkpoint {
     pub peak_imbalance: f64,
     /// Bonds broken at the last probe, ascending (column, row, direction).
     pub broken_bonds: Vec<[i32; 3]>,
-    /// Bonds that the crack had parted by then, also where its faces touch, ascending.
-    pub parted_bonds: Vec<[i32; 3]>,
+    /// Bonds that the crack had parted by then, also where its faces touch, with the probes at which they broke, ascending
+    /// (column, row, direction).
+    pub parted_bonds: Vec<BondEvent>,
+    /// The probes at which the crack joined one ahead of it, if the run is to end after a branch.
+    pub joins: Vec<u32>,
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,

@@ -67,6 +67,7 @@ impl Solver {
         let number = self.probes.taken() - 1;
         let bonds = self.changed_bonds(number as u32);
         if let Some(tracker) = &mut self.tracker {
+            let earlier = tracker.tip();
             tracker.follow(&bonds);
             let front = damage::front(tracker, &bonds, &self.setting);
             self.stop.follow(tracker.tip().x, front, self.time);
@@ -74,8 +75,17 @@ impl Solver {
                 self.stop.leave_plane(self.time);
             }
             let is_wanted = self.settings.until.after_branch.is_some() && self.stop.branched().is_infinite();
-            if is_wanted && !bonds.is_empty() && branches::arms(tracker, spur(&self.setting)).len() > 1 {
-                self.stop.branch(self.time);
+            if is_wanted && !bonds.is_empty() {
+                let spur = spur(&self.setting);
+                if tracker.joined(earlier, number as u32, spur).is_some() {
+                    self.joins.push(number as u32);
+                }
+                if branches::arms(tracker, spur)
+                    .iter()
+                    .any(|arm| arm.is_branch(&self.joins))
+                {
+                    self.stop.branch(self.time);
+                }
             }
         }
         let totals = self.totals();

@@ -1,7 +1,7 @@
 //! Leaving a run and going on with it.
 
 use super::checkpoint::Checkpoint;
-use super::{Solver, SolverError, probe};
+use super::{Solver, SolverError};
 use crate::analysis::crack::Tracker;
 use crate::forces::Planes;
 use crate::lattice::triangular;
@@ -34,6 +34,7 @@ impl Solver {
             peak_imbalance: self.ledger.peak_imbalance(),
             broken_bonds: self.broken.clone(),
             parted_bonds: self.tracker.as_ref().map_or_else(Vec::new, Tracker::parted),
+            joins: self.joins.clone(),
             probes: self.probes.taken(),
             snapshots: self.snapshots.taken(),
             last_advance: self.stop.last_advance(),
@@ -64,9 +65,9 @@ impl Solver {
         self.broken.clone_from(&checkpoint.broken_bonds);
         self.tracker = Tracker::new(&self.setting);
         if let Some(tracker) = &mut self.tracker {
-            let last_probe = checkpoint.probes.saturating_sub(1) as u32;
-            tracker.follow(&probe::bond_events(&[], &checkpoint.parted_bonds, last_probe));
+            tracker.follow(&checkpoint.parted_bonds);
         }
+        self.joins.clone_from(&checkpoint.joins);
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
         let Checkpoint {
@@ -103,12 +104,13 @@ impl Solver {
             return Err("it has other interfaces");
         }
         let mesh = self.mesh();
-        let exists = |&[column, row, direction]: &[i32; 3]| {
+        let exists = |[column, row, direction]: [i32; 3]| {
             usize::try_from(direction).is_ok_and(|direction| direction < triangular::NEAREST.len())
                 && mesh.owner_of([column, row]).is_some()
         };
-        let mut bonds = checkpoint.broken_bonds.iter().chain(&checkpoint.parted_bonds);
-        if bonds.all(exists) {
+        let parted = checkpoint.parted_bonds.iter();
+        let parted = parted.map(|bond| [bond.column, bond.row, i32::from(bond.direction)]);
+        if checkpoint.broken_bonds.iter().copied().chain(parted).all(exists) {
             Ok(())
         } else {
             Err("it has bonds of other sites")

@@ -14,6 +14,17 @@ fn number(seed: u64) -> f64 {
     (seed as f64 + 0.1).sin() * 1e3
 }
 
+/// A bond that broke at this probe.
+fn parted_at(probe: u32) -> impl Fn([i32; 3]) -> BondEvent {
+    move |[column, row, direction]| BondEvent {
+        probe,
+        column,
+        row,
+        direction: direction as u8,
+        broken: true,
+    }
+}
+
 fn checkpoint(nodes: u64) -> Checkpoint {
     let column = |offset: u64| (0..nodes).map(|node| number(offset + node)).collect::<Vec<_>>();
     Checkpoint {
@@ -30,7 +41,10 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         peak_work: f64::INFINITY,
         peak_imbalance: number(2),
         broken_bonds: vec![[-1, 2, 0], [i32::MAX, i32::MIN, 2]],
-        parted_bonds: vec![[-1, 2, 0], [0, 3, 1], [i32::MAX, i32::MIN, 2]],
+        parted_bonds: [[-1, 2, 0], [0, 3, 1], [i32::MAX, i32::MIN, 2]]
+            .map(parted_at(7))
+            .to_vec(),
+        joins: vec![3, 7],
         probes: 12,
         snapshots: 3,
         last_advance: number(3),

@@ -22,6 +22,14 @@ pub struct Arm {
     pub angle: f64,
 }
 
+impl Arm {
+    /// Whether it is a branch: neither the main crack nor what was left of the old tip when the crack joined one ahead of it
+    /// (`joins`: the probes at which it did).
+    pub fn is_branch(&self, joins: &[u32]) -> bool {
+        self.parent.is_some() && !joins.contains(&self.born)
+    }
+}
+
 /// The main crack, then its branches, longest first.
 ///
 /// A side path is a branch when it is at least `spur` spacings long and ends at least half of that away from every

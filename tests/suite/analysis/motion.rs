@@ -1,6 +1,7 @@
 //! Speeds, joins, the way off the plane and damage elsewhere, of cracks that do what they are told.
 
-use cgaft::analysis::series::BondEvent;
+use cgaft::analysis::crack::{Tracker, branches, spur};
+use cgaft::analysis::series::{BondEvent, Setting};
 use cgaft::analysis::{analyse, path};
 
 use super::{EXACT, findings};
@@ -56,7 +57,8 @@ fn what_a_join_leaves_of_the_old_tip_is_no_branch() {
     bonds.extend(breaks(&kinked(151.0, 30), 80));
     bonds.extend(breaks(&straight(190.0, 330.0), 40));
     bonds.extend(breaks(&straight(150.0, 190.0), 110));
-    let found = findings(in_time(bonds), 160);
+    let bonds = in_time(bonds);
+    let found = findings(bonds.clone(), 160);
     assert_eq!(found.joins.len(), 1, "{:?}", found.joins);
     assert!(
         found.branches.iter().any(|branch| branch.joined),
@@ -64,6 +66,16 @@ fn what_a_join_leaves_of_the_old_tip_is_no_branch() {
         found.branches
     );
     assert_eq!(found.first_branch(), None, "{:?}", found.branches);
+
+    // A run that goes on from a checkpoint knows it too.
+    let setting = setting();
+    let mut tracker = Tracker::new(&setting).unwrap();
+    tracker.follow(&bonds);
+    let mut resumed = Tracker::new(&setting).unwrap();
+    resumed.follow(&tracker.parted());
+    let arms = branches::arms(&resumed, spur(&setting));
+    assert_eq!(arms, branches::arms(&tracker, spur(&setting)));
+    assert!(arms.iter().any(|arm| arm.is_branch(&[])) && !arms.iter().any(|arm| arm.is_branch(&[110])));
 }
 
 #[test]
@@ -81,6 +93,26 @@ fn windows_are_cut_at_a_jump_and_the_speed_on_both_sides_is_that_of_the_tip() {
     }
     assert_eq!(found.speed_share, Some(1.0));
     assert!((found.peak_speed().unwrap() / (2.0 * SPACING) - 1.0).abs() < ROUNDING);
+}
+
+#[test]
+fn the_window_of_a_speed_is_the_time_in_which_a_slow_crack_makes_six_advances() {
+    // One spacing a probe up to probe 100, then two. Six times three spacings at 0.3 c_R take 15.9 ps, so a window reaches
+    // seven probes to either side, and one that is longer by a hundredth would reach eight.
+    let setting = Setting {
+        rayleigh_speed: 18.0 * SPACING / (0.3 * 15.9),
+        ..setting()
+    };
+    let slow = straight(99.0, 150.0);
+    let slow = slow.chunks(2).zip(50..).flat_map(|(piece, probe)| breaks(piece, probe));
+    let bonds = slow.chain(running(150.0, 290.0, 101)).collect();
+    let found = analyse(&series(180, bonds, &setting), &setting);
+    let is_faster = |speed: f64| speed > (1.0 + ROUNDING) * SPACING;
+    let faster = found
+        .speeds
+        .iter()
+        .position(|speed| speed.is_some_and(|speed| is_faster(speed.value)));
+    assert_eq!(faster, Some(101 - 7));
 }
 
 #[test]

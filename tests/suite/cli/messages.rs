@@ -326,6 +326,28 @@ fn check_warns_of_a_time_step_near_the_limit() {
 }
 
 #[test]
+fn check_warns_of_rules_that_look_at_some_bonds_only() {
+    let place = Workspace::new();
+    let check = |summation: &str| {
+        place.write_study(&STUDY.replace("run: {", &format!("run: {{summation: {summation}, ")));
+        place.cgaft(&["study", "check", "slab.yaml"]).succeeded().stdout
+    };
+    let nodal = check("nodal");
+    assert!(
+        nodal.contains("warning: A: `summation: nodal` fails the patch test: uncracked it is 43 % too soft"),
+        "{nodal}"
+    );
+    let gauss = check("{gauss: 2}");
+    assert!(
+        gauss.contains("warning: A: `summation: {gauss: 2}` looks at some bonds"),
+        "{gauss}"
+    );
+    for silent in ["exact", "{gauss: {points: 2, strict: true}}"] {
+        assert!(!check(silent).contains("warning"), "{silent}");
+    }
+}
+
+#[test]
 fn doctor_speaks_to_programs_too() {
     let json = Workspace::new().cgaft(&["doctor", "--json"]).succeeded().json();
     assert_eq!(json["ok"], true);
