@@ -15,6 +15,7 @@ mod page;
 mod palette;
 mod picture;
 mod precision;
+mod resolution;
 mod scaling;
 mod side_by_side;
 mod slab;

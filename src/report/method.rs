@@ -1,7 +1,7 @@
 //! The rules behind the numbers, in words, with the values in force.
 
-use super::Analysed;
 use super::numbers::significant;
+use super::{Analysed, resolution};
 use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
 use crate::analysis::crack::leaving::LEAVES_PLANE_SPACINGS;
@@ -157,6 +157,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 .to_owned(),
         ),
     ];
+    notes.extend(resolution::notes(cases));
     let treatment = |case: &Analysed| {
         let about = case
             .result

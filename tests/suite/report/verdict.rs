@@ -29,6 +29,24 @@ fn the_verdict_tells_that_no_crack_starts() {
 }
 
 #[test]
+fn what_the_elements_do_to_a_crack_is_told_where_there_are_such_elements() {
+    let page = |cases: std::ops::Range<usize>| {
+        let mut study = three_meshes();
+        study.cases = study.cases.drain(cases).collect();
+        text(&written(&study), "report.md")
+    };
+    let told =
+        |page: &str| ["Cracks through large elements", "Cracks in a band of atoms"].map(|note| page.contains(note));
+    assert_eq!(told(&page(0..1)), [true, false], "coarse");
+    assert_eq!(told(&page(1..2)), [false, true], "mixed");
+    let mut atoms = three_meshes();
+    atoms.cases = vec![atoms.cases.remove(2)];
+    let setting = atoms.cases[0].setting.as_mut().unwrap();
+    setting.nodes = setting.represented_atoms;
+    assert_eq!(told(&text(&written(&atoms), "report.md")), [false, false]);
+}
+
+#[test]
 fn starts_that_the_probes_cannot_tell_apart_are_not_told_apart() {
     let study = Study {
         cases: vec![
