@@ -6,6 +6,7 @@ mod census;
 mod error;
 mod estimate;
 mod geometry;
+mod intervals;
 mod leftovers;
 pub mod memory;
 mod recorder;
@@ -114,6 +115,14 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
     let sound = WaveSpeeds::of(material).longitudinal;
     if speed > sound {
         return Err(SetupError::FasterThanSound { speed, sound });
+    }
+    let case::Loading::StrainRate { sponge, .. } = case.loading;
+    let element_row = f64::from(case.resolution.element) * triangular::ROW_HEIGHT * spacing;
+    if let Some(sponge) = sponge.filter(|&sponge| sponge < element_row) {
+        return Err(SetupError::SpongeTooThin {
+            sponge,
+            row: element_row,
+        });
     }
     refuse_cracks_beyond(case, SiteSet::new(layout).last_bond() * spacing, spacing)?;
     let highest = (layout.rows - layout.rows / 2 - 1) * layout.block;

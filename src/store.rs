@@ -19,6 +19,7 @@ mod error;
 mod files;
 mod links;
 mod manifest;
+mod seal;
 mod state;
 mod verify;
 

@@ -24,7 +24,7 @@ mod tree;
 pub use error::{Mistake, StudyError};
 pub use file::Growth;
 pub(crate) use file::{CaseFile, SideBySideFile, StudyFile};
-pub(crate) use finding::{Finding, Findings, Place, alternatives, suggestion};
+pub(crate) use finding::{Finding, Findings, Place, alternatives, nearest, suggestion};
 pub(crate) use named::{Name, Sweep};
 pub(crate) use overlay::Overlay;
 pub(crate) use reader::{Given, read as read_tree};

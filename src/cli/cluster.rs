@@ -1,7 +1,7 @@
 //! `--on slurm`: what the jobs get, and the scripts that ask for it.
 
 use std::env;
-use std::path::PathBuf;
+use std::path::{self, PathBuf};
 
 use super::run::{Arguments, Prepared};
 use super::survey::Survey;
@@ -12,6 +12,14 @@ use crate::study::cluster::read_profile;
 
 /// Resources of the study, and where it leaves them open, of the profile.
 pub fn setting(survey: &Survey, arguments: &Arguments) -> Result<Setting, CliError> {
+    let results = path::absolute(survey.store.root()).unwrap_or_default();
+    if results.to_string_lossy().contains(char::is_control) {
+        let results = results.display();
+        return Err(CliError::Input(format!(
+            "{results:?} has a line break or another control character, which no job script can hold; name another folder \
+             by `--results`"
+        )));
+    }
     let profile = match profile_path() {
         Some(path) => read_profile(&path)?.unwrap_or_default(),
         None => Default::default(),

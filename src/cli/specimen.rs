@@ -91,7 +91,11 @@ pub fn end(end: NotchEnd) -> &'static str {
 pub fn warnings(cases: &[Laid]) -> Vec<String> {
     let mut told: Vec<(String, Vec<&str>)> = Vec::new();
     for (planned, specimen) in cases {
-        let own = [sizes_warning(specimen), leftover_warning(specimen)];
+        let own = [
+            sizes_warning(specimen),
+            leftover_warning(specimen),
+            absent_warning(planned, specimen),
+        ];
         for text in own.into_iter().flatten() {
             match told.iter_mut().find(|(known, _)| *known == text) {
                 Some((_, names)) => names.push(&planned.name),
@@ -153,6 +157,19 @@ fn leftover_warning(specimen: &Specimen) -> Option<String> {
         format::share(leftovers.share()),
         left_over(&leftovers)
     ))
+}
+
+fn absent_warning(planned: &PlannedCase, specimen: &Specimen) -> Option<String> {
+    let absent = specimen.absent?;
+    let elements = match absent {
+        1 => "single atom".to_owned(),
+        edge => format!("element of {edge} atoms an edge"),
+    };
+    let is_of_case = i64::from(absent) == i64::from(planned.case.resolution.element);
+    Some(match is_of_case {
+        true => format!("no {elements} is left beside the regions, which take the whole specimen"),
+        false => format!("no {elements} has room in the region that asks for it"),
+    })
 }
 
 /// `none`, `4.2 % at the grips, 0.6 % at the right face`.

@@ -231,10 +231,11 @@ impl Sheet<'_> {
     fn table(&self, head: &csv::StringRecord) -> Option<&'static Compared> {
         if !head.iter().any(|column| column == CASE || column == RANKS) {
             let message = format!("{} has no column `{CASE}`", self.file);
-            self.add(
-                message,
-                "name the case of every row in it: the first line names the columns",
-            );
+            let help = match head.iter().any(|cell| cell.contains([';', '\t'])) {
+                true => "put commas between the cells, in place of semicolons or tabs",
+                false => "name the case of every row in it: the first line names the columns",
+            };
+            self.add(message, help);
             return None;
         }
         let has = |table: &Compared, column: &str| {

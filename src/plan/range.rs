@@ -1,9 +1,11 @@
 //! Ranges of a sweep: `{from: 0.1, to: 0.5, step: 0.1}` is exactly 0.1, 0.2, 0.3, 0.4, 0.5, as typed decimals.
 
 use crate::{
-    study::{Finding, Node, Value},
+    study::{Finding, Node, Value, nearest},
     units::Decimal,
 };
+
+const KEYS: [&str; 3] = ["from", "to", "step"];
 
 /// Values of one range; more than this is a slip in the step.
 const MOST_VALUES: i128 = 10_000;
@@ -13,11 +15,13 @@ pub fn values(node: &Node) -> Result<Vec<Node>, Finding> {
     let Value::Map(entries) = &node.value else {
         return Ok(Vec::new());
     };
-    if let Some((key, _)) = entries
-        .iter()
-        .find(|(key, _)| !matches!(key.text(), "from" | "to" | "step"))
-    {
-        return Err(Finding::at(key.place, format!("`{}` is not a key of a range", key.text())).help(HELP));
+    if let Some((key, _)) = entries.iter().find(|(key, _)| !KEYS.contains(&key.text())) {
+        let message = format!("`{}` is not a key of a range", key.text());
+        let help = match nearest(key.text(), &KEYS) {
+            Some(near) => format!("did you mean `{near}`?"),
+            None => HELP.to_owned(),
+        };
+        return Err(Finding::at(key.place, message).help(help));
     }
     let end = |name: &str| {
         let node = node

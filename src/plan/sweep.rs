@@ -102,7 +102,21 @@ fn values(number: usize) -> String {
 fn read_path<'a>(name: &'a str, place: Place, node: &'a Node, findings: &Findings) -> Option<Path<'a>> {
     let values = match &node.value {
         Value::List(items) if !items.is_empty() => Ok(items.clone()),
-        Value::Map(_) => range::values(node),
+        Value::Map(keys) => match keys.first() {
+            // What is below a section is swept by its path.
+            Some((
+                key,
+                Node {
+                    value: Value::List(_) | Value::Map(_),
+                    ..
+                },
+            )) => {
+                let message = format!("`{name}` is swept by the paths of what is in it");
+                let help = format!("write `{name}.{}: […]`", key.text());
+                Err(Finding::at(key.place, message).help(help))
+            }
+            _ => range::values(node),
+        },
         _ => Err(Finding::at(node.place, format!("`{name}` needs the values it takes"))
             .help("write a list such as [5, 10, 20], or {from: 0.1, to: 0.5, step: 0.1}")),
     };

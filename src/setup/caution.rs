@@ -1,19 +1,39 @@
 //! What is allowed and should be known before a case is computed.
 
+use super::material;
 use crate::study::case::{Case, Summation};
 
-/// Sentences about the method that a case has chosen.
+/// A sheet of atoms is about as thick as its atoms are apart; thicker or thinner than this many times, it is a slip of a unit.
+const UNLIKELY_THICKNESS: f64 = 20.0;
+
+/// Sentences about what a case has chosen.
 pub fn cautions(case: &Case) -> Vec<String> {
-    match case.run.summation {
-        Summation::Exact | Summation::StrictGauss { .. } => vec![],
-        Summation::Gauss { points } => vec![format!(
+    summation(case).into_iter().chain(thickness(case)).collect()
+}
+
+fn thickness(case: &Case) -> Option<String> {
+    let thickness = case.material.thickness;
+    let spacings = thickness / material(case).ok()?.spacing;
+    let is_likely = (1.0 / UNLIKELY_THICKNESS..UNLIKELY_THICKNESS).contains(&spacings);
+    (!is_likely).then(|| {
+        format!(
+            "a thickness of {thickness:e} nm is {spacings:.1e} times the distance of the atoms; every stress is a force per \
+             length over it"
+        )
+    })
+}
+
+fn summation(case: &Case) -> Option<String> {
+    Some(match case.run.summation {
+        Summation::Exact | Summation::StrictGauss { .. } => return None,
+        Summation::Gauss { points } => format!(
             "`summation: {{gauss: {points}}}` looks at some bonds of a string only: once bonds part the energy may drift; \
              the report tells by how much"
-        )],
-        Summation::Nodal => vec![
+        ),
+        Summation::Nodal => {
             "`summation: nodal` fails the patch test: uncracked it is 43 % too soft with 10 atoms an edge (2.20 against \
              3.92 GPa at 1 %), and the report gives no K that takes the moduli of the lattice"
-                .to_owned(),
-        ],
-    }
+                .to_owned()
+        }
+    })
 }

@@ -29,6 +29,13 @@ const BYTES_AN_ATOM: f64 = 200.0;
 const BYTES_A_TRIANGLE: f64 = 1250.0;
 
 impl Census {
+    /// The first of the sizes asked for that no element has.
+    pub fn absent(&self, plan: &Plan) -> Option<i32> {
+        let regions = plan.regions.iter().map(|region| region.element);
+        let mut wanted = [plan.element].into_iter().chain(regions).map(i32::from);
+        wanted.find(|&size| self.elements.iter().all(|element| element.0 != size))
+    }
+
     /// Counts the elements of a mesh.
     pub fn counted(plan: &Plan, mesh: &Mesh) -> Self {
         let mut elements: Vec<(i32, f64)> = Vec::new();

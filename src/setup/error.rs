@@ -26,6 +26,19 @@ pub enum SetupError {
         every: f64,
         time: f64,
     },
+    /// An interval, and the shortest that has a meaning, ps.
+    TooShort {
+        subject: Subject,
+        what: &'static str,
+        interval: f64,
+        least: f64,
+        least_is: &'static str,
+    },
+    /// nm
+    SpongeTooThin {
+        sponge: f64,
+        row: f64,
+    },
     FasterThanSound {
         speed: f64,
         sound: f64,
@@ -99,6 +112,25 @@ impl SetupError {
                      anything happens"
                 ),
                 format!("probe every {:.2} ps or more often", time / 100.0),
+            ),
+            Self::TooShort {
+                subject,
+                what,
+                interval,
+                least,
+                least_is,
+            } => Refusal::new(
+                *subject,
+                format!("{what}, {interval:.2e} ps, is shorter than {least_is}, {least:.3} ps"),
+                match subject {
+                    Subject::Damping => format!("write a rate of at most {:.2e} /s", 1e12 / least),
+                    _ => format!("let it be {least:.3} ps or longer"),
+                },
+            ),
+            Self::SpongeTooThin { sponge, row } => Refusal::new(
+                Subject::Sponge,
+                format!("a sponge of {sponge} nm has no room for a row of elements, {row:.3} nm, and would take nothing out"),
+                "make it thicker or the elements smaller, or leave it out",
             ),
             Self::FasterThanSound { speed, sound } => Refusal::new(
                 Subject::Rate,

@@ -2,6 +2,7 @@
 
 use super::census::{Census, MESHED};
 use super::geometry::{self, Geometry, Notch};
+use super::intervals::refuse_too_short;
 use super::leftovers::Leftovers;
 use crate::forces::Summation;
 use crate::lattice::triangular;
@@ -39,6 +40,8 @@ pub struct Specimen {
     pub geometry: Geometry,
     /// `None` where the specimen is too large to be meshed for this question.
     pub leftovers: Option<Leftovers>,
+    /// Atoms an edge that were asked for, in the whole or in a region, and that no element has.
+    pub absent: Option<i32>,
     /// Equal for cases that are one computation, however they were asked for.
     pub computation: u64,
 }
@@ -125,6 +128,7 @@ impl Estimator {
         let specimen = Specimen {
             geometry: Geometry::of(case, plan, notch),
             leftovers: census.leftovers,
+            absent: census.leftovers.and_then(|_| census.absent(plan)),
             computation: geometry::computation(case, plan, census.fingerprint, notch.as_ref()),
         };
         (specimen, census)
@@ -214,6 +218,7 @@ fn estimate_with(
         let every = case.probes.every;
         return Err(SetupError::TooFewProbes { every, time });
     }
+    refuse_too_short(case, time_step)?;
     // The constants are those of nearest neighbours, three bonds a site; half of what an atom costs is not bonds.
     let reach = LOOKED_AT * material.interaction.cutoff() / material.spacing;
     let bonds = triangular::half_vectors_within(reach).len() as f64 / 3.0;
@@ -231,25 +236,26 @@ fn estimate_with(
         stability_limit,
         steps,
         memory_bytes: census.memory() * u64::from(ranks(case)),
-        disk_bytes: disk(case, census, material.spacing, time),
+        disk_bytes: disk(case, census, material.spacing, [time, steps as f64]),
         seconds: SECONDS_A_RUN + seconds_of_probes + census.weigh(of_element) * steps as f64,
     })
 }
 
-/// Bytes on the disk of a run of so many ps. A picture has four doubles a node and an element; put together, it has six
+/// Bytes on the disk of a run of so many ps and steps. A picture has four doubles a node and an element; put together, it has six
 /// and seven singles, of which deflating may save little. A checkpoint has four doubles a node, and stands there twice
 /// while it is replaced. A probe has some forty doubles and five for every bin of the profile, none narrower than two
 /// spacings, and stands there twice while the series is put together.
-fn disk(case: &Case, census: &Census, spacing: f64, time: f64) -> u64 {
+fn disk(case: &Case, census: &Census, spacing: f64, [time, steps]: [f64; 2]) -> u64 {
     let case::Loading::StrainRate { rate, .. } = case.loading;
     let every = match case.snapshots.every {
         None => f64::INFINITY,
         Some(case::SnapshotInterval::Strain(strain)) => strain / rate,
         Some(case::SnapshotInterval::Time(time)) => time,
     };
-    let pictures = (time / every).floor() + 2.0;
+    let pictures = (time / every).floor().min(steps) + 2.0;
     let [nodes, elements] = [census.node_count() as f64, census.element_count() as f64];
-    let series = (time / case.probes.every + 2.0) * 16.0 * (40.0 + 5.0 * 0.5 * case.specimen.length / spacing);
+    let series =
+        ((time / case.probes.every).min(steps) + 2.0) * 16.0 * (40.0 + 5.0 * 0.5 * case.specimen.length / spacing);
     (pictures * (nodes * (32.0 + 24.0) + elements * (32.0 + 28.0)) + 64.0 * nodes + series) as u64
 }
 

@@ -10,7 +10,7 @@ use jiff::Timestamp;
 
 use super::cost::COST;
 use super::manifest::host;
-use super::{Attempt, ExitState, Failure, Manifest, Outcome, Program, Reached, State, Store, StoreError, files};
+use super::{Attempt, ExitState, Failure, Manifest, Outcome, Program, Reached, State, Store, StoreError, files, seal};
 
 /// Locked by the solver as long as it writes into a folder, even when the one who started it is gone.
 pub const SOLVER_LOCK: &str = ".solver-lock";
@@ -156,8 +156,10 @@ impl Claim {
             outcome,
             files,
             blake3,
+            seal: seal::OPEN.to_owned(),
         };
-        files::write_json(&folder.join(MANIFEST), &manifest)?;
+        let text = serde_json::to_string_pretty(&manifest).expect("a manifest always has a JSON form") + "\n";
+        files::write(&folder.join(MANIFEST), seal::sealed(&text).as_bytes())?;
         files::sync(&folder)?;
         self.rename_into_place(&folder)?;
         Ok(manifest)

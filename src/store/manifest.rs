@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// Provenance of a published run: `manifest.json`, written last, never edited.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Manifest {
     pub id: String,
     /// Name of the case when it was run; another study may know the same run by another name.
@@ -40,6 +41,9 @@ pub struct Manifest {
     /// BLAKE3 of every file of the run, hexadecimal; empty in manifests from before there were any.
     #[serde(default)]
     pub blake3: BTreeMap<String, String>,
+    /// Of the manifest itself; empty in manifests from before there was one.
+    #[serde(default)]
+    pub seal: String,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

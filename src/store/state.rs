@@ -1,7 +1,7 @@
 use std::fs;
 
 use super::claim::SOLVER_LOCK;
-use super::{Attempt, Failure, Manifest, Store, files};
+use super::{Attempt, Failure, Manifest, Store, files, seal};
 
 /// What there is of a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +78,13 @@ impl Store {
     /// The manifest of a published run whose files are there in the sizes they were published with; otherwise what is wrong.
     pub(super) fn manifest(&self, id: &str) -> Result<Manifest, String> {
         let folder = self.run_folder(id);
-        let manifest: Manifest = files::read_json(&folder.join("manifest.json"))?;
+        let text = fs::read_to_string(folder.join("manifest.json"))
+            .map_err(|error| format!("manifest.json cannot be read ({error})"))?;
+        let manifest: Manifest =
+            serde_json::from_str(&text).map_err(|error| format!("manifest.json is damaged ({error})"))?;
+        if !manifest.seal.is_empty() && !seal::is_whole(&text, &manifest.seal) {
+            return Err("manifest.json no longer holds what was published".to_owned());
+        }
         if manifest.id != id {
             return Err(format!("manifest.json is of run {}", manifest.id));
         }

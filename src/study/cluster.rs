@@ -141,12 +141,20 @@ impl Check<'_> {
 
     fn option(&self, given: &Given<String>) -> Option<String> {
         let Given::Right(text, place) = given else { return None };
-        let name = text.split(['=', ' ']).next().unwrap_or_default();
+        let name = text.split('=').next().unwrap_or_default();
         if !text.starts_with("--") || text.contains(char::is_control) {
             let message = format!("`{text}` is no option of sbatch in its long form");
             self.refuse(*place, message, "write for example `options: [--mem=8G, --qos=long]`");
-        } else if RESERVED.contains(&name) {
-            let message = format!("`{name}` is set by cgaft itself");
+        } else if text.contains(char::is_whitespace) {
+            let message = format!("`{text}` is more than one option, or has a blank in its value");
+            self.refuse(
+                *place,
+                message,
+                "write each option as an item of its own: `options: [--mem=8G, --qos=long]`",
+            );
+        } else if let Some(reserved) = RESERVED.iter().find(|reserved| reserved.starts_with(name)) {
+            // sbatch takes the beginning of a name for the whole.
+            let message = format!("`{reserved}` is set by cgaft itself");
             self.refuse(
                 *place,
                 message,

@@ -1,7 +1,7 @@
 //! What only material and mesh reveal of a case, told at its place in the study file.
 
 use super::{
-    file::{AtCutoff, CaseFile, Loading, Potential},
+    file::{AtCutoff, CaseFile, Loading, Observe, Potential, StrainRate},
     finding::{Finding, Place},
     reader::Given,
 };
@@ -30,8 +30,13 @@ pub enum Subject {
     Until,
     /// The crack length that ends it.
     UntilCrackLength,
+    /// The rest of the crack that ends it.
+    UntilArrest,
     TimeStep,
     Probes,
+    Snapshots,
+    Sponge,
+    Damping,
 }
 
 impl fmt::Display for Refusal {
@@ -78,10 +83,7 @@ impl Subject {
             Self::Length => case.specimen.right()?.length.place().or(case.specimen.place()),
             Self::Width => case.specimen.right()?.width.place().or(case.specimen.place()),
             Self::Element => case.resolution.right()?.element.place().or(case.resolution.place()),
-            Self::Rate => {
-                let Loading::StrainRate(values) = case.loading.right()?;
-                values.rate.place().or(case.loading.place())
-            }
+            Self::Rate => strain_rate(case)?.rate.place().or(case.loading.place()),
             Self::Until => {
                 let until = &case.run.right()?.until;
                 let values = until.right()?;
@@ -92,10 +94,32 @@ impl Subject {
                 let until = &case.run.right()?.until;
                 until.right()?.crack_length.place().or(until.place())
             }
+            Self::UntilArrest => {
+                let until = &case.run.right()?.until;
+                until.right()?.arrest.place().or(until.place())
+            }
+            Self::Snapshots => {
+                let every = case
+                    .observe
+                    .right()?
+                    .iter()
+                    .find_map(|observed| match observed.right()? {
+                        Observe::Snapshots(values) => values.every.place().or(observed.place()),
+                        _ => None,
+                    });
+                every.or(case.observe.place())
+            }
+            Self::Sponge => strain_rate(case)?.sponge.place().or(case.loading.place()),
+            Self::Damping => strain_rate(case)?.damping.place().or(case.loading.place()),
             Self::TimeStep => case.run.right()?.time_step.place().or(case.run.place()),
             Self::Probes => case.probes.right()?.every.place().or(case.probes.place()),
         }
     }
+}
+
+fn strain_rate(case: &CaseFile) -> Option<&StrainRate> {
+    let Loading::StrainRate(values) = case.loading.right()?;
+    Some(values)
 }
 
 /// The cutoff, or the end of a smooth one.

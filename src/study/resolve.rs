@@ -167,12 +167,18 @@ impl Check<'_> {
     }
 
     /// A number of at least 1.
-    fn counted(&self, given: &Given<u32>, path: &str) -> Option<Option<u32>> {
+    fn counted(&self, given: &Given<u32>, path: &str, most: u32) -> Option<Option<u32>> {
         match given {
             Given::Right(0, place) => {
                 self.add(
                     Finding::at(*place, format!("`{path}` must be at least 1")).help("leave it out for the default"),
                 );
+                None
+            }
+            Given::Right(number, place) if *number > most => {
+                let message =
+                    format!("`{path}` must be at most {most}, more than any machine has, and {number} is not");
+                self.add(Finding::at(*place, message).help("leave it out for the default"));
                 None
             }
             Given::Right(number, _) => Some(Some(*number)),

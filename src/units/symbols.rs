@@ -174,6 +174,8 @@ fn by_another_name(token: &str, expected: Dimension) -> Option<String> {
         ("THz", _) => "1 THz is 1e12 /s",
         ("mol", Dimension::Mass) => "1 g/mol is 1 u",
         ("mol", Dimension::Energy) => "1 kJ/mol is 0.0103643 eV",
+        ("kcal" | "cal", Dimension::Energy) => "1 kcal/mol is 0.0433641 eV",
+        ("Ha" | "hartree", Dimension::Energy) => "1 hartree is 27.2114 eV",
         ("amu", _) => "1 amu is 1 u",
         _ => return None,
     };

@@ -173,6 +173,11 @@ fn units_that_go_by_another_name_here_are_told_as_what_they_are() {
             "`mol` is not a unit; 1 g/mol is 1 u; a mass is written such as 802 u",
         ),
         (
+            "9.5 kcal/mol",
+            Energy,
+            "`kcal` is not a unit; 1 kcal/mol is 0.0433641 eV; an energy is written such as 0.415 eV",
+        ),
+        (
             "40 kJ/mol",
             Energy,
             "`mol` is not a unit; 1 kJ/mol is 0.0103643 eV; an energy is written such as 0.415 eV",

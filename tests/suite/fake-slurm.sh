@@ -30,7 +30,7 @@ sbatch)
     cat >"$script"
     only=$(grep -q '^#SBATCH --array=' "$script" || echo "$array")
     last=$(sed -n 's/^#SBATCH --array=0-\([0-9]*\).*/\1/p' "$script")
-    output=$(sed -n 's/^#SBATCH --output="\(.*\)"$/\1/p' "$script")
+    output=$(sed -n 's/^#SBATCH "\{0,1\}--output=\([^"]*\)"\{0,1\}$/\1/p' "$script")
     for task in $(seq 0 "${last:-0}"); do
         id=${only:-${array}_$task}
         log=${output//%[Aj]/$array}

@@ -112,11 +112,11 @@ fn text<'a>(
     let warning = cluster.time.map_or(WARNING, |time| WARNING.min(WARNING_SHARE * time));
     given("signal", Some(format!("B:USR1@{warning:.0}")));
     options.extend(["--requeue".to_owned(), "--open-mode=append".to_owned()]);
-    options.push(format!("--output=\"{output}\""));
+    options.push(format!("--output={output}"));
     options.extend(cluster.options.iter().cloned());
 
     let mut lines = vec!["#!/bin/bash".to_owned()];
-    lines.extend(options.iter().map(|option| format!("#SBATCH {option}")));
+    lines.extend(options.iter().map(|option| format!("#SBATCH {}", directive(option))));
     lines.push(String::new());
     lines.extend(cluster.modules.iter().map(|module| format!("module load {module}")));
     lines.extend(cluster.preamble.clone());
@@ -134,6 +134,16 @@ fn text<'a>(
     lines.join("\n") + "\n"
 }
 
+/// An option as sbatch takes it from a script: it knows quotes and backslashes, and takes an open `#` for a comment. A line
+/// break has no form there; [`absolute`] paths with one are refused before.
+fn directive(option: &str) -> String {
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=:,+@%".contains(letter);
+    if option.chars().all(plain) {
+        return option.to_owned();
+    }
+    format!("\"{}\"", option.replace('\\', r"\\").replace('"', "\\\""))
+}
+
 /// A node starts in another folder.
 fn absolute(path: &Path) -> PathBuf {
     std::path::absolute(path).unwrap_or_else(|_| path.to_owned())
@@ -148,5 +158,43 @@ fn clock(seconds: f64) -> String {
 impl fmt::Display for Script {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         formatter.write_str(&self.text)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Takes an option apart as sbatch does (`_get_argument` of its option reader).
+    fn read(line: &str) -> String {
+        let (mut argument, mut quote, mut escaped) = (String::new(), None, false);
+        for letter in line.chars() {
+            match (escaped, quote, letter) {
+                (true, ..) => {
+                    argument.push(letter);
+                    escaped = false;
+                }
+                (_, _, '\\') => escaped = true,
+                (_, Some(open), _) if letter == open => quote = None,
+                (_, None, '"' | '\'') => quote = Some(letter),
+                (_, None, '#' | ' ') => break,
+                _ => argument.push(letter),
+            }
+        }
+        argument
+    }
+
+    #[test]
+    fn sbatch_reads_each_option_as_it_was_meant() {
+        for option in [
+            "--mem=8G",
+            "--output=/data/my results/%A.out",
+            r#"--output=/a"b/c'd"#,
+            r"--comment=a\b#c",
+            "--comment=#",
+        ] {
+            assert_eq!(read(&directive(option)), option);
+        }
+        assert_eq!(directive("--mem=8G"), "--mem=8G");
     }
 }

@@ -138,6 +138,10 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         match &self.node.value {
             Value::Null => visitor.visit_map(Entries::new(self, &[], None)),
             Value::Map(_) => self.deserialize_any(visitor),
+            Value::Word(word) if word.ends_with(".csv") => {
+                let help = format!("give it a name: `{{source: {word}}}`");
+                Err(self.unexpected(&"a map of names and files").help(&help))
+            }
             _ => Err(self.unexpected(&"a map of names and values").help(MAP)),
         }
     }

@@ -6,9 +6,12 @@ use crate::study::{
     defaults,
     file::{self, Smooth},
     finding::{Finding, Place},
-    quantity::Length,
+    quantity::{Length, Mass},
     reader::Given,
 };
+
+/// A site of more than this, or less than its inverse, is a slip of a unit, u.
+const MOST_MASS: f64 = 1e15;
 
 impl Check<'_> {
     /// The material, and the distance at which two atoms rest (nm), which may be known although the whole is not.
@@ -20,7 +23,7 @@ impl Check<'_> {
         let potential = self.need(&values.potential, place, "material.potential", example);
         let potential = potential.and_then(|(potential, place)| self.potential(&potential, place));
         let spacing = potential.as_ref().map(|potential| minimum(&potential.shape));
-        let mass = self.size(&values.mass, place, "material.mass");
+        let mass = self.mass(&values.mass, place);
         let thickness = self.size(&values.thickness, place, "material.thickness");
         let parts = potential.zip(mass).zip(thickness);
         let material = parts.map(|((potential, (mass, _)), (thickness, _))| Material {
@@ -29,6 +32,17 @@ impl Check<'_> {
             thickness,
         });
         (material, spacing)
+    }
+
+    /// Of a site, u.
+    fn mass(&self, given: &Given<Mass>, section: Place) -> Option<At<f64>> {
+        let (mass, place) = self.size(given, section, "material.mass")?;
+        if (1.0 / MOST_MASS..=MOST_MASS).contains(&mass) {
+            return Some((mass, place));
+        }
+        let message = format!("a site of {mass:.1e} u is no atom");
+        self.add(Finding::at(place, message).help("write the mass of one atom, such as 802 u"));
+        None
     }
 
     fn potential(&self, given: &file::Potential, place: Place) -> Option<Potential> {

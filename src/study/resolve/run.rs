@@ -26,6 +26,19 @@ pub struct CrackStops {
 /// Nominal strain beyond which nothing holds together.
 const MOST_STRAIN: f64 = 1.0;
 
+/// No crystal comes to rest under a strain beyond this, in tension or in compression.
+const MOST_RELAX: f64 = 0.2;
+
+/// No edge of an element has bonds for so many points; as many points as bonds are the sum over all of them.
+const MOST_POINTS: u32 = 100;
+
+/// More than any machine has.
+const MOST_THREADS: u32 = 4096;
+const MOST_RANKS: u32 = 1 << 24;
+
+/// Checkpoints more often than this leave no time for steps, s.
+const FASTEST_CHECKPOINTS: f64 = 1e-3;
+
 impl Check<'_> {
     pub fn loading(&self, given: &Given<file::Loading>, case: Place, specimen: &SpecimenAt) -> Option<Loading> {
         let (loading, place) = self.need(given, case, "loading", "{strain-rate: {mode: I, rate: 4.6e6 /s}}")?;
@@ -111,6 +124,11 @@ impl Check<'_> {
                     self.add(Finding::at(place, message).help("write `summation: {gauss: 2}`, `exact` or `nodal`"));
                     return None;
                 }
+                if points > MOST_POINTS {
+                    let message = format!("{points} Gauss points are more than any edge has bonds");
+                    self.add(Finding::at(place, message).help("write `summation: exact`, which sums every bond"));
+                    return None;
+                }
                 Some(match strict {
                     false => Summation::Gauss { points },
                     true => Summation::StrictGauss { points },
@@ -151,6 +169,13 @@ impl Check<'_> {
             Given::Right(values, place) => (values, *place),
         };
         let (start, place) = self.need(&values.strain, section, "relax.strain", "0.4 %")?;
+        if start.value.abs() > MOST_RELAX {
+            let most = MOST_RELAX * 100.0;
+            let message =
+                format!("no crystal comes to rest under a strain of {start}: it breaks or folds before {most} %");
+            self.add(Finding::at(place, message).help("start just below the strain at which the crack starts"));
+            return None;
+        }
         let end = until.right().and_then(|until| match until.strain {
             Given::Right(end, place) => Some((end, place)),
             _ => None,
@@ -279,13 +304,18 @@ impl Check<'_> {
 
     pub fn execution(&self, given: &Given<file::Run>) -> Option<Execution> {
         let (values, _) = self.section(given, Place::default())?;
-        let ranks = self.counted(&values.ranks, "run.ranks");
-        let threads = self.counted(&values.threads, "run.threads");
-        let every = self.size_if_given(&values.checkpoint_every, "run.checkpoint-every");
+        let ranks = self.counted(&values.ranks, "run.ranks", MOST_RANKS);
+        let threads = self.counted(&values.threads, "run.threads", MOST_THREADS);
+        let every = self.size_if_given(&values.checkpoint_every, "run.checkpoint-every")?;
+        if let Some((_, place)) = every.filter(|(every, _)| *every < FASTEST_CHECKPOINTS) {
+            let message = "checkpoints more often than a thousand times a second leave no time for steps";
+            self.add(Finding::at(place, message).help("write for example `checkpoint-every: 10 min`"));
+            return None;
+        }
         Some(Execution {
             ranks: ranks?,
             threads: threads?,
-            checkpoint_every: every?.map_or(defaults::CHECKPOINT_EVERY, |(every, _)| every),
+            checkpoint_every: every.map_or(defaults::CHECKPOINT_EVERY, |(every, _)| every),
         })
     }
 

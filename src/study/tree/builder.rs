@@ -233,6 +233,9 @@ fn unreadable(text: &str, error: &ScanError) -> Finding {
         };
         return Finding::at(place, "a tab stands in the indentation of this line").help("indent with spaces");
     }
+    if let Some(place) = colon_without_blank(text, start) {
+        return Finding::at(place, "there is no blank after this colon").help("write `key: value`");
+    }
     let place = first_character(text, Place { start, end: start });
     if *error.kind() == ErrorKind::RecursionLimitExceeded {
         return too_deep(place);
@@ -243,6 +246,29 @@ fn unreadable(text: &str, error: &ScanError) -> Finding {
     }
     Finding::at(place, format!("this is not YAML: {}", error.info()))
         .help("check indentation, brackets, quotes and the blank after each colon up to this place")
+}
+
+/// The colon after the first word of the line of a place, or of the line before it, which may be taken for one text with it,
+/// where the value follows at once.
+fn colon_without_blank(text: &str, place: usize) -> Option<Place> {
+    let begin = |end: usize| text[..end].rfind('\n').map_or(0, |at| at + 1);
+    let here = begin(place);
+    let lines = [here, begin(here.saturating_sub(1))];
+    lines.into_iter().find_map(|line| colon_with_value(text, line))
+}
+
+/// The colon in a line that begins here, such as `mass:802 u`.
+fn colon_with_value(text: &str, begin: usize) -> Option<Place> {
+    let line = text[begin..].lines().next()?;
+    let indent = line.len() - line.trim_start().len();
+    let is_word = |letter: char| letter.is_alphanumeric() || letter == '-' || letter == '_';
+    let colon = indent + line[indent..].find(|letter| !is_word(letter))?;
+    let value = line[colon..].strip_prefix(':')?;
+    let is_value = colon > indent && value.starts_with(char::is_alphanumeric);
+    is_value.then(|| Place {
+        start: begin + colon,
+        end: begin + colon + 1,
+    })
 }
 
 /// The tab in the indentation of the line of a place, or of the line after it, which the parser may have looked at.

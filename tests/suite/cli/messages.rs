@@ -348,6 +348,33 @@ fn check_warns_of_rules_that_look_at_some_bonds_only() {
 }
 
 #[test]
+fn check_warns_of_regions_that_change_nothing_or_all_and_of_an_unlikely_thickness() {
+    let place = Workspace::new();
+    let check = |old: &str, new: &str| {
+        assert!(STUDY.contains(old), "{old}");
+        place.write_study(&STUDY.replace(old, new));
+        place.cgaft(&["study", "check", "slab.yaml"]).succeeded().stdout
+    };
+    let band =
+        |half_width: &str| format!("{{element: 10, regions: [{{band: {{half-width: {half_width}, element: 1}}}}]}}");
+    let wide = check("resolution: {element: 10}", &format!("resolution: {}", band("1 mm")));
+    assert!(
+        wide.contains("no element of 10 atoms an edge is left beside the regions, which take the whole specimen"),
+        "{wide}"
+    );
+    let thin = check("resolution: {element: 10}", &format!("resolution: {}", band("1e-5 nm")));
+    assert!(
+        thin.contains("no single atom has room in the region that asks for it"),
+        "{thin}"
+    );
+    let thick = check("thickness: 0.2087 nm", "thickness: 1e30 nm");
+    assert!(
+        thick.contains("a thickness of 1e30 nm is 3.9e30 times the distance of the atoms"),
+        "{thick}"
+    );
+}
+
+#[test]
 fn doctor_speaks_to_programs_too() {
     let json = Workspace::new().cgaft(&["doctor", "--json"]).succeeded().json();
     assert_eq!(json["ok"], true);

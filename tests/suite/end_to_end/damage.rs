@@ -57,3 +57,25 @@ fn who_asks_for_it_is_told_of_damage_by_words_json_and_exit_code() {
         assert!(told.contains(words), "no `{words}` in {told}");
     }
 }
+
+#[test]
+fn a_manifest_that_was_changed_is_told_at_every_look() {
+    let place = Workspace::new();
+    place.cgaft("run", &["--only", "coarse"]).succeeded();
+    let manifest = place.case("coarse").join("manifest.json");
+    let text = fs::read_to_string(&manifest).unwrap();
+    let length = text.find(" nm\"").expect("a length of the case");
+    let mut bytes = text.into_bytes();
+    bytes[length + 1] = b'f';
+    fs::write(&manifest, bytes).unwrap();
+    assert_eq!(place.states()[0], "corrupt");
+    let again = place.cgaft("run", &["--only", "coarse"]).succeeded();
+    assert!(
+        again
+            .stdout
+            .contains("coarse: runs (corrupt: manifest.json no longer holds what was published"),
+        "{}",
+        again.stdout
+    );
+    assert_eq!(place.states()[0], "done");
+}

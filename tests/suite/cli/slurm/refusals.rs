@@ -111,3 +111,13 @@ fn accounting_tells_of_jobs_that_the_queue_has_forgotten() {
     assert_eq!(run.code, Some(1));
     assert!(run.stderr.contains("100_0 was out of memory"), "{}", run.stderr);
 }
+
+#[test]
+fn results_that_no_script_can_name_are_refused_before_anything_is_submitted() {
+    let cluster = Cluster::new();
+    let results = cluster.place.path("results\nscancel --all");
+    let refused = cluster.cgaft("run", &["--on", "slurm", "--results", results.to_str().unwrap()]);
+    assert_eq!(refused.code, Some(2), "{}", refused.stderr);
+    assert!(refused.stderr.contains("no job script can hold"), "{}", refused.stderr);
+    assert!(!results.exists());
+}
