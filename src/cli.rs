@@ -12,6 +12,7 @@ mod export;
 mod format;
 mod new;
 mod plan;
+mod prepare;
 mod progress;
 mod report;
 mod room;
@@ -67,7 +68,7 @@ enum Command {
 #[derive(Debug, Subcommand)]
 enum StudyCommand {
     /// Compute the cases that are missing, then build the report
-    Run(run::Arguments),
+    Run(prepare::Arguments),
     /// Validate a study and tell the size and cost of each case; computes nothing
     Check(survey::Common),
     /// Tell what would run, why, and the exact command

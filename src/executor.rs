@@ -3,6 +3,7 @@
 //! Making a command ([`launch`]) and starting it ([`local`]) are separate, so that `cgaft study plan` can show it.
 //! [`slurm`] starts jobs that do the same on another machine.
 
+pub mod command;
 pub mod errand;
 pub mod exit;
 pub mod launch;
@@ -15,8 +16,8 @@ pub mod share;
 pub mod slurm;
 pub mod stop;
 
+pub use command::Launch;
 pub use errand::{Ending, Errand, Job, Watcher};
-pub use launch::Launch;
 pub use progress::Progress;
 pub use queue::{Settings, WORTH_A_RESTART, run};
 pub use stop::Stop;

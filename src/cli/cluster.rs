@@ -3,7 +3,7 @@
 use std::env;
 use std::path::{self, PathBuf};
 
-use super::run::{Arguments, Prepared};
+use super::prepare::{Arguments, Prepared};
 use super::survey::Survey;
 use super::{CliError, format};
 use crate::executor::launch;

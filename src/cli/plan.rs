@@ -1,7 +1,7 @@
 use clap::Args;
 use serde_json::json;
 
-use super::run::{self, Arguments as RunArguments, CrewChoice, On};
+use super::prepare::{self, Arguments as RunArguments, CrewChoice, On};
 use super::survey::{self, OfResults};
 use super::terminal::Terminal;
 use super::{CliError, cluster};
@@ -29,8 +29,8 @@ pub fn plan(arguments: &Arguments) -> Result<u8, CliError> {
 /// What `run` would do with these arguments; changes nothing.
 pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
     let survey = survey::survey(&arguments.common.study, &arguments.place.results)?;
-    let chosen = run::chosen(&survey, &arguments.only)?;
-    let prepared = run::prepare(&survey, &chosen, arguments)?;
+    let chosen = prepare::chosen(&survey, &arguments.only)?;
+    let prepared = prepare::prepare(&survey, &chosen, arguments)?;
     let share = prepared.share;
     // A plan is worth showing before the solver is installed.
     let solver = launch::find_solver().unwrap_or_else(|_| "cgaft-solve".into());
@@ -53,7 +53,7 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
             (false, _) => "skip",
         };
         let reason = if runs && matches!(entry.state, State::Done(_)) {
-            run::FRESH
+            prepare::FRESH
         } else {
             &entry.reason
         };

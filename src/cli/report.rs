@@ -105,6 +105,7 @@ fn fingerprint(survey: &Survey, others: &[Other]) -> String {
 /// Tables, figures and pages from the runs of the store: the one call to `report`.
 fn build(survey: &Survey, others: &[Other]) -> Result<PathBuf, CliError> {
     let folder = survey.store.root();
+    let others = others.iter().map(|other| other.gather(survey)).collect();
     report::write(&gather::gather(survey, others), folder)?;
     Ok(folder.join("report.html"))
 }

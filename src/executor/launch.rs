@@ -1,19 +1,10 @@
 use std::env;
-use std::fmt;
-use std::fs;
-use std::os::unix::fs::MetadataExt;
 use std::path::{Path, PathBuf};
 
 use super::ExecutorError;
+use super::command::Launch;
 use super::mpi::under_mpirun;
 use super::share::Crew;
-
-/// A command, made but not started.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Launch {
-    pub program: PathBuf,
-    pub arguments: Vec<String>,
-}
 
 /// The command that computes the case in `folder`, with all files of the run in that folder.
 pub fn launch(solver: &Path, folder: &Path, crew: Crew) -> Launch {
@@ -40,11 +31,6 @@ pub fn launch(solver: &Path, folder: &Path, crew: Crew) -> Launch {
     }
 }
 
-/// Whether this process belongs to root, whom some programs refuse.
-pub(super) fn is_root() -> bool {
-    fs::metadata("/proc/self").is_ok_and(|process| process.uid() == 0)
-}
-
 /// Finds `cgaft-solve`: where CGAFT_SOLVE says, else beside this program, else on the PATH.
 pub fn find_solver() -> Result<PathBuf, ExecutorError> {
     if let Some(path) = env::var_os("CGAFT_SOLVE").map(PathBuf::from) {
@@ -67,26 +53,6 @@ pub fn find_solver() -> Result<PathBuf, ExecutorError> {
     candidates
         .find(|program| program.is_file())
         .ok_or(ExecutorError::NoSolver)
-}
-
-impl fmt::Display for Launch {
-    /// As one would type it in a shell.
-    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(formatter, "{}", quoted(&self.program.display().to_string()))?;
-        self.arguments
-            .iter()
-            .try_for_each(|argument| write!(formatter, " {}", quoted(argument)))
-    }
-}
-
-/// A word as a shell takes it.
-pub fn quoted(word: &str) -> String {
-    let plain = |letter: char| letter.is_ascii_alphanumeric() || "-_./=:,+@%".contains(letter);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.to_owned()
-    } else {
-        format!("'{}'", word.replace('\'', r"'\''"))
-    }
 }
 
 #[cfg(test)]

@@ -1,8 +1,10 @@
 //! Several processes a case: `mpirun` starts them, and takes part in how they end.
 
+use std::fs;
+use std::os::unix::fs::MetadataExt;
 use std::path::Path;
 
-use super::launch::{Launch, is_root};
+use super::command::Launch;
 use super::probe::output_of;
 
 /// Why ranks cannot be started here.
@@ -117,6 +119,11 @@ pub fn under_mpirun(solve: Launch, ranks: u32) -> Launch {
         program: "mpirun".into(),
         arguments,
     }
+}
+
+/// Whether this process belongs to root, whom some programs refuse.
+fn is_root() -> bool {
+    fs::metadata("/proc/self").is_ok_and(|process| process.uid() == 0)
 }
 
 /// Keeps from `mpirun` what Slurm tells all processes of a job at its end: it would kill its ranks a second later, in

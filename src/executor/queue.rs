@@ -12,7 +12,7 @@ use jiff::Timestamp;
 use super::exit::{self, Ended};
 use super::local::{self, Event, Running};
 use super::share::{Crew, Share};
-use super::{Ending, Errand, ExecutorError, Progress, Stop, launch, mpi};
+use super::{Ending, Errand, ExecutorError, Launch, Progress, Stop, launch, mpi};
 use crate::store::{Claim, Program, Reached, State, StoreError};
 
 #[derive(Clone, Debug)]
@@ -313,7 +313,7 @@ pub fn starts_over(state: &State) -> bool {
     }
 }
 
-fn open_log(folder: &Path, command: &launch::Launch) -> Result<File, ExecutorError> {
+fn open_log(folder: &Path, command: &Launch) -> Result<File, ExecutorError> {
     use std::io::Write;
     let path = folder.join("log.txt");
     let open = || {

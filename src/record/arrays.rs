@@ -1,10 +1,9 @@
 //! Numbers with their unit as HDF5 datasets.
 
-use hdf5::types::VarLenUnicode;
-use hdf5::{Dataset, Group, H5Type};
+use hdf5::{Group, H5Type};
 use ndarray::{ArrayView, IxDyn};
 
-use super::packed::{Number, Packed};
+use super::packed::{Number, Packed, name_unit};
 
 /// How the numbers lie in the file.
 #[derive(Clone, Copy)]
@@ -85,10 +84,4 @@ pub(super) fn rows<T: Copy, const WIDTH: usize>(numbers: &[T]) -> Option<Vec<[T;
 
 pub(super) fn get_scalar<T: H5Type>(group: &Group, name: &str) -> hdf5::Result<T> {
     group.dataset(name)?.read_scalar()
-}
-
-/// Says on the dataset itself what its numbers are counted in.
-pub(super) fn name_unit(dataset: &Dataset, unit: &str) -> hdf5::Result<()> {
-    let unit: VarLenUnicode = unit.parse().map_err(|_| "a unit contains a zero byte")?;
-    dataset.new_attr::<VarLenUnicode>().create("units")?.write_scalar(&unit)
 }

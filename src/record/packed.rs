@@ -9,12 +9,11 @@ use bytemuck::NoUninit;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
 use hdf5::sync::sync;
+use hdf5::types::VarLenUnicode;
 use hdf5::{Dataset, Group, H5Type};
 use hdf5_metno_sys::h5d::H5Dwrite_chunk;
 use hdf5_metno_sys::h5p::H5P_DEFAULT;
 use rayon::prelude::*;
-
-use super::arrays::name_unit;
 
 /// Numbers in a chunk: 64 to 128 kB, so that a short file is one chunk and a chunk always fits the 1 MB cache that HDF5 keeps
 /// a dataset.
@@ -94,6 +93,12 @@ impl<T: Number> Packed<T> {
         }
         Ok(())
     }
+}
+
+/// Says on the dataset itself what its numbers are counted in.
+pub(super) fn name_unit(dataset: &Dataset, unit: &str) -> hdf5::Result<()> {
+    let unit: VarLenUnicode = unit.parse().map_err(|_| "a unit contains a zero byte")?;
+    dataset.new_attr::<VarLenUnicode>().create("units")?.write_scalar(&unit)
 }
 
 /// Puts a chunk as it is into the file; `start` is where its first number stands, on every axis.

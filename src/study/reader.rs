@@ -5,12 +5,13 @@
 
 mod access;
 mod deserializer;
+mod position;
 
 use super::{
     finding::{Finding, Findings, Place},
     tree::Node,
 };
-use deserializer::Reader;
+use position::Reader;
 use serde::de::{self, Deserialize, Deserializer, Expected, Unexpected, Visitor};
 use std::{fmt, marker::PhantomData};
 

@@ -5,19 +5,18 @@ use std::path::{Path, PathBuf};
 
 use serde_json::Value;
 
-use super::others::Other;
 use crate::analysis::series::{Series, Setting};
 use crate::cli::specimen::end;
 use crate::cli::survey::{Entry, Survey};
 use crate::domain::MessageCost;
 use crate::plan::{self, SCALING};
 use crate::record::{self, CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE};
-use crate::report::{CaseResult, Failure, Film, Manifest, Phase, Scaling, Specimen, Study};
+use crate::report::{CaseResult, Failure, Film, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
 use crate::setup::{self, Estimator};
 use crate::store::{self, Attempt, State};
 
-/// A study with the results of all its cases, also of those that failed or are missing.
-pub fn gather(survey: &Survey, others: &[Other]) -> Study {
+/// A study with the results of all its cases, also of those that failed or are missing, and what others have of them.
+pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
     let scaling = scaling(survey);
     let mut estimator = Estimator::default();
     let mut comparisons = survey.plan.comparisons.clone();
@@ -32,7 +31,7 @@ pub fn gather(survey: &Survey, others: &[Other]) -> Study {
         stages: survey.plan.stages.clone(),
         scaling,
         comparisons,
-        others: others.iter().map(|other| other.gather(survey)).collect(),
+        others,
         side_by_side: survey.plan.side_by_side.clone(),
         cases: survey
             .entries

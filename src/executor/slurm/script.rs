@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::ticket;
 use crate::executor::Job;
-use crate::executor::launch::quoted;
+use crate::executor::command::quoted;
 use crate::executor::share::Crew;
 use crate::store::Store;
 use crate::study::cluster::Cluster;

@@ -2,7 +2,7 @@
 
 use super::{
     Fault,
-    deserializer::{Reader, shortened},
+    position::{Reader, shortened},
 };
 use crate::study::{
     finding::{Finding, nearest, suggestion},

@@ -3,45 +3,13 @@
 use super::{
     Fault, GIVEN, NUMBER_OR_MAP, OTHERWISE,
     access::{Caught, Entries, Items, Variant},
+    position::{Reader, shortened},
 };
 use crate::study::{
-    finding::{Findings, alternatives, suggestion},
-    tree::{Node, Value},
+    finding::{alternatives, suggestion},
+    tree::Value,
 };
-use serde::de::{Deserializer, Expected, Visitor};
-
-#[derive(Clone, Copy)]
-pub struct Reader<'a> {
-    pub node: &'a Node,
-    /// Key under which the node stands; empty for the whole file.
-    pub within: &'a str,
-    pub findings: &'a Findings,
-}
-
-impl<'a> Reader<'a> {
-    pub fn at(self, node: &'a Node) -> Self {
-        Self { node, ..self }
-    }
-
-    fn unexpected(&self, expected: &dyn Expected) -> Fault {
-        let found = match &self.node.value {
-            Value::Null => return Fault::new(self.node.place, format!("a value is missing: expected {expected}")),
-            Value::Word(text) => format!("`{}`", shortened(text)),
-            Value::List(_) => "a list".into(),
-            Value::Map(_) => "a map".into(),
-        };
-        Fault::new(self.node.place, format!("expected {expected}, found {found}"))
-    }
-
-    fn number<T: std::str::FromStr>(&self, expected: &str) -> Result<T, Fault> {
-        let number = if let Value::Word(text) = &self.node.value {
-            text.trim().parse().ok()
-        } else {
-            None
-        };
-        number.ok_or_else(|| self.unexpected(&expected))
-    }
-}
+use serde::de::{Deserializer, Visitor};
 
 impl<'de> Deserializer<'de> for Reader<'de> {
     type Error = Fault;
@@ -232,12 +200,4 @@ const MAP: &str = "write pairs such as `key: value`, in braces or indented below
 /// Those variants that a person can type.
 fn named(variants: &[&'static str]) -> Vec<&'static str> {
     variants.iter().copied().filter(|name| *name != OTHERWISE).collect()
-}
-
-pub fn shortened(text: &str) -> String {
-    if text.chars().count() <= 60 {
-        text.into()
-    } else {
-        text.chars().take(57).chain("...".chars()).collect()
-    }
 }
