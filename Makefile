@@ -105,6 +105,7 @@ install: build
 	case ":$$PATH:" in *":$$bin:"*) ;; *) echo "put it on the PATH: export PATH=\"$$bin:\$$PATH\"" ;; esac
 
 setup:
+	@command -v $(CARGO) >/dev/null || { echo 'cargo is not on the PATH: install Rust 1.89 or later (https://rustup.rs), open a new shell, and call make again'; exit 1; }
 	@.ci/packages libhdf5-dev pkg-config
 	@.ci/packages $(MPI_PACKAGES) || echo 'going on without MPI: cases use threads, on one machine each'
 

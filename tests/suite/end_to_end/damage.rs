@@ -3,7 +3,10 @@
 use std::fs;
 use std::path::Path;
 
+use cgaft::store::{State, Store};
+
 use super::{Workspace, assert_same_results};
+use crate::suite::specimens::Noise;
 
 /// Another bit in the middle of a file, whose size stays.
 fn flip_a_bit(file: &Path) {
@@ -78,4 +81,44 @@ fn a_manifest_that_was_changed_is_told_at_every_look() {
         again.stdout
     );
     assert_eq!(place.states()[0], "done");
+}
+
+#[test]
+fn any_flipped_bit_of_any_file_of_a_run_is_found() {
+    const FLIPS: usize = 200;
+    let place = Workspace::new();
+    place.cgaft("run", &["--only", "coarse"]).succeeded();
+    let store = Store::open(&place.path("results"), "slab").unwrap();
+    let folder = place.case("coarse");
+    let id = folder.file_name().unwrap().to_str().unwrap();
+    // A program that another test is just starting has this one's lock for a moment.
+    let verified = || {
+        let states = std::iter::repeat_with(|| store.verified_state(id));
+        let mut known = states.filter(|state| !matches!(state, State::Running(_)));
+        known.next().expect("states never end")
+    };
+    let mut noise = Noise(7);
+    let mut files: Vec<_> = fs::read_dir(&folder)
+        .unwrap()
+        .map(|entry| entry.unwrap().path())
+        .collect();
+    files.sort();
+    assert!(files.len() >= 5, "{files:?}");
+    for file in files {
+        let whole = fs::read(&file).unwrap();
+        for _ in 0..FLIPS {
+            let place = (0.5 * (noise.next() + 1.0) * (8 * whole.len()) as f64) as usize % (8 * whole.len());
+            let mut bytes = whole.clone();
+            bytes[place / 8] ^= 1 << (place % 8);
+            fs::write(&file, bytes).unwrap();
+            let state = verified();
+            assert!(
+                matches!(state, State::Corrupt { .. }),
+                "{}: bit {place}: {state:?}",
+                file.display()
+            );
+        }
+        fs::write(&file, whole).unwrap();
+        assert!(matches!(verified(), State::Done(_)), "{}", file.display());
+    }
 }
