@@ -2,6 +2,9 @@
 
 use super::plaquette::{Bond, Plaquette};
 
+/// A cut that ends on the middle of a bond leaves it whole. The mesh knows its ends in spacings, and here they are in nm.
+const ROUNDING: f64 = 1e-9;
+
 /// The cut, and where it lies in the lattice.
 #[derive(Clone, Copy, Debug)]
 pub struct Notch {
@@ -13,8 +16,7 @@ pub struct Notch {
 }
 
 impl Notch {
-    /// The severed bonds, left to right. A bond counts as severed when its middle is left of the end of the cut;
-    /// half a spacing more is taken in, so that a crack is found whichever of its ends decides where the cut stops.
+    /// The severed bonds, left to right.
     pub fn cut_bonds(&self) -> Vec<Bond> {
         let first = ((self.left_x / self.spacing) - 0.5 * f64::from(self.row)).floor() as i32;
         let count = (self.cut_end / self.spacing).ceil() as i32;
@@ -30,9 +32,10 @@ impl Notch {
             .collect()
     }
 
+    /// A bond is severed when its middle is before the end of the cut, as in the mesh.
     pub fn is_cut(&self, bond: Bond) -> bool {
         let x = self.place(bond)[0];
-        bond.row == self.row && bond.direction != 0 && x >= 0.0 && x < self.cut_end + 0.5 * self.spacing
+        self.is_in_plane(bond) && x >= 0.0 && x < self.cut_end - ROUNDING * self.spacing
     }
 
     /// Middle of a bond, nm from the left edge and from the crack plane.
