@@ -27,7 +27,7 @@ use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Layers, Sponge, Stretching};
 use crate::material::{Material, WaveSpeeds};
-use crate::mesh::cut::{Crack, WantedEnd};
+use crate::mesh::cut::{Crack, Side, WantedEnd};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::{Layout, SiteSet};
 use crate::mesh::{Mesh, Plan};
@@ -163,6 +163,7 @@ fn notch(crack: &case::Crack, spacing: f64) -> Crack {
         end,
     } = *crack;
     Crack {
+        side: Side::Left,
         length: length / spacing,
         end: end.map(|end| match end {
             case::NotchEnd::Corner => WantedEnd::Corner,

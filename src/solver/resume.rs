@@ -1,8 +1,8 @@
 //! Leaving a run and going on with it.
 
 use super::checkpoint::Checkpoint;
-use super::{Solver, SolverError, probe};
-use crate::analysis::crack::Tracker;
+use super::crack::Crack;
+use super::{Solver, SolverError};
 use crate::forces::Planes;
 use crate::lattice::triangular;
 
@@ -33,7 +33,7 @@ impl Solver {
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
             broken_bonds: self.broken.clone(),
-            parted_bonds: self.tracker.as_ref().map_or_else(Vec::new, Tracker::parted),
+            parted_bonds: self.crack.as_ref().map_or_else(Vec::new, Crack::parted),
             probes: self.probes.taken(),
             snapshots: self.snapshots.taken(),
             last_advance: self.stop.last_advance(),
@@ -62,10 +62,10 @@ impl Solver {
         self.ledger
             .restore(checkpoint.start, checkpoint.peak_work, checkpoint.peak_imbalance);
         self.broken.clone_from(&checkpoint.broken_bonds);
-        self.tracker = Tracker::new(&self.setting);
-        if let Some(tracker) = &mut self.tracker {
+        self.crack = Crack::new(&self.setting);
+        if let Some(crack) = &mut self.crack {
             let last_probe = checkpoint.probes.saturating_sub(1) as u32;
-            tracker.follow(&probe::bond_events(&[], &checkpoint.parted_bonds, last_probe));
+            crack.go_on_from(&checkpoint.parted_bonds, last_probe);
         }
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
