@@ -3,6 +3,7 @@
 pub mod comparison;
 pub mod crack;
 pub mod damage;
+pub mod frame;
 pub mod history;
 pub mod initiation;
 pub mod path;
@@ -14,11 +15,12 @@ pub mod stress_intensity;
 pub mod waves;
 
 use crack::Tip;
+use frame::Frame;
 use history::{Branch, FirstBond, Join, LeavesPlane, PartedElsewhere};
 use initiation::Initiation;
 use series::{Series, Setting};
 use speed::Speed;
-use stress_intensity::{FromJ, NearTip, Refusal};
+use stress_intensity::{Ahead, FromJ, NearTip, Refusal};
 use waves::Arrival;
 
 /// Everything extracted from one case. Internal units (nm, ps, eV); what was not detected is `None` or empty.
@@ -43,6 +45,8 @@ pub struct Findings {
     pub speeds: Vec<Option<Speed>>,
     /// Share of the time from initiation to the last advance that has a speed.
     pub speed_share: Option<f64>,
+    /// The stress ahead of the tip at the probe before initiation.
+    pub ahead: Vec<Ahead>,
     /// Near-tip fit of the stress intensity at the probe before initiation, or why there is none.
     pub near_tip: Option<NearTip>,
     pub near_tip_refused: Option<Refusal>,
@@ -56,6 +60,11 @@ pub struct Findings {
 
 /// Extracts everything from the series of one case.
 pub fn analyse(series: &Series, setting: &Setting) -> Findings {
+    let frame = Frame::of(setting);
+    frame.findings(in_its_frame(&frame.series(series), &frame.setting(setting)))
+}
+
+fn in_its_frame(series: &Series, setting: &Setting) -> Findings {
     let Some(history) = history::history(series, setting) else {
         return Findings::default();
     };
@@ -67,6 +76,9 @@ pub fn analyse(series: &Series, setting: &Setting) -> Findings {
     let from_j = before.map(|probe| stress_intensity::from_j(series, probe, setting));
     Findings {
         speed_share: initiation.and_then(|start| speed::share(&history.tips, start.probe, &speeds)),
+        ahead: before.map_or_else(Vec::new, |probe| {
+            stress_intensity::ahead(series, probe, history.tips[probe].x).collect()
+        }),
         arrivals: waves::arrivals(&history.tips, initiation, series, setting),
         tips: history.tips,
         branches: history.branches,

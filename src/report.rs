@@ -1,7 +1,6 @@
 //! A study's results as tables, figures and one page that says what came out and what it cost.
 
 mod agreement;
-mod ahead;
 mod beware;
 mod branching;
 mod chart;

@@ -28,7 +28,7 @@ use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Layers, Sponge, Stretching};
 use crate::material::{Material, WaveSpeeds};
-use crate::mesh::cut::{Crack, WantedEnd};
+use crate::mesh::cut::{Crack, Side, WantedEnd};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::{Layout, SiteSet};
 use crate::mesh::{Mesh, Plan};
@@ -124,7 +124,7 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
             row: element_row,
         });
     }
-    refuse_cracks_beyond(case, SiteSet::new(layout).last_bond() * spacing, spacing)?;
+    refuse_cracks_beyond(case, &SiteSet::new(layout), spacing)?;
     let highest = (layout.rows - layout.rows / 2 - 1) * layout.block;
     let element = |element: u32| match u16::try_from(element) {
         Ok(fitting) if i32::from(fitting) <= highest => Ok(fitting),
@@ -151,12 +151,32 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
     })
 }
 
-/// `longest` is how far the last bond on the crack plane is from the edge, nm. A tip is told where the next bond would be.
-fn refuse_cracks_beyond(case: &Case, longest: f64, spacing: f64) -> Result<(), SetupError> {
+/// A notch must sever a bond and leave one whole, on either side of it where it lies inside, and no crack comes farther than
+/// the last. A tip is told where the next bond would be. Bonds cross the crack plane half a spacing apart.
+fn refuse_cracks_beyond(case: &Case, sites: &SiteSet, spacing: f64) -> Result<(), SetupError> {
     let Some(crack) = &case.crack else { return Ok(()) };
-    if crack.length > longest {
-        let crack = crack.length;
-        return Err(SetupError::CrackTooLong { crack, longest });
+    let [first, last] = [sites.first_bond(), sites.last_bond()].map(|bond| bond * spacing);
+    let (shortest, longest) = match crack.edge {
+        case::Edge::Left | case::Edge::Right => (first, last),
+        case::Edge::None { center } => (0.5 * spacing, last - center),
+    };
+    if crack.measured() <= shortest {
+        let [crack, shortest] = [crack.length, crack.length / crack.measured() * shortest];
+        return Err(SetupError::CrackTooShort { crack, shortest });
+    }
+    let length = crack.length;
+    match crack.edge {
+        case::Edge::None { center } if crack.measured() > longest.min(center - first) => {
+            return Err(SetupError::NotchNotInside {
+                length,
+                center,
+                bonds: [first, last],
+            });
+        }
+        case::Edge::Left | case::Edge::Right if length > longest => {
+            return Err(SetupError::CrackTooLong { crack: length, longest });
+        }
+        _ => {}
     }
     match case.run.until.crack_length {
         Some(end) if end > longest + 0.5 * spacing => Err(SetupError::CrackOutOfReach { end, longest }),
@@ -166,12 +186,15 @@ fn refuse_cracks_beyond(case: &Case, longest: f64, spacing: f64) -> Result<(), S
 
 /// The crack of a case, in units of the lattice spacing.
 fn notch(crack: &case::Crack, spacing: f64) -> Crack {
-    let case::Crack {
-        edge: case::Edge::Left,
-        length,
-        end,
-    } = *crack;
+    let case::Crack { edge, length, end } = *crack;
     Crack {
+        side: match edge {
+            case::Edge::Left => Side::Left,
+            case::Edge::Right => Side::Right,
+            case::Edge::None { center } => Side::Inside {
+                center: center / spacing,
+            },
+        },
         length: length / spacing,
         end: end.map(|end| match end {
             case::NotchEnd::Corner => WantedEnd::Corner,

@@ -3,6 +3,7 @@
 mod bins;
 pub mod checkpoint;
 mod cost;
+mod crack;
 mod error;
 mod gauges;
 pub mod j_integral;
@@ -31,7 +32,6 @@ pub use time_step::TimeStep;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::analysis::crack::Tracker;
 use crate::analysis::initiation;
 use crate::analysis::series::Setting;
 use crate::domain::{Call, Ranks};
@@ -41,6 +41,7 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::relaxation::{self, RelaxationError, Target};
 use crate::state::State;
+use crack::Crack;
 use gauges::Gauges;
 use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
@@ -102,9 +103,7 @@ pub struct Solver {
     probes: Schedule,
     snapshots: Schedule,
     broken: Vec<[i32; 3]>,
-    tracker: Option<Tracker>,
-    /// The probes at which the crack joined one ahead of it, if the run is to end after a branch.
-    joins: Vec<u32>,
+    crack: Option<Crack>,
     stop: stop::Watch,
     cost: Cost,
 }
@@ -144,7 +143,7 @@ impl Solver {
         let thermometer = Thermometer::new(&mesh);
         let j_integral = JIntegral::new(&mesh, material);
         let sight = Sight::new(&mesh, &loading, &profile, &traction, &gauges);
-        let tracker = Tracker::new(&setting);
+        let crack = Crack::new(&setting);
         let mut forces = Forces::shared(ranks, mesh, material, settings.summation);
         let mut measure = Measure::default();
         forces
@@ -189,8 +188,7 @@ impl Solver {
             probes,
             snapshots,
             broken: Vec::new(),
-            tracker,
-            joins: Vec::new(),
+            crack,
             stop,
             cost,
         })
@@ -314,12 +312,12 @@ impl Solver {
 
     /// A crack that has set out before the motion begins would be taken for the notch.
     fn refuse_a_crack_that_ran(&self) -> Result<(), SolverError> {
-        let Some(mut tracker) = Tracker::new(&self.setting) else {
+        let Some(mut crack) = Crack::new(&self.setting) else {
             return Ok(());
         };
         let broken = self.forces.broken_bonds(&self.state.position);
-        tracker.follow(&probe::bond_events(&[], &broken, 0));
-        let [notch, tip] = [self.setting.crack_length, tracker.tip().x];
+        crack.follow(&probe::bond_events(&[], &broken, 0), 0);
+        let [notch, tip] = [self.setting.crack_length, crack.tip().x];
         if tip - notch > initiation::far(&self.setting) {
             let strain = self.strain();
             return Err(SolverError::RanWhileResting { notch, tip, strain });

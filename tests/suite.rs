@@ -8,6 +8,7 @@ mod suite {
     mod forces;
     mod formulas;
     mod j_integral;
+    mod notches;
     mod record;
     mod relaxation;
     mod report;

@@ -5,6 +5,9 @@
 //! broken bonds on the shortest way there, and mends this as bonds break and close, in time that grows with the
 //! part of the crack that changed. The tip is the foremost reached plaquette. Fragments and holes away from
 //! the notch are not reached and so do not count.
+//!
+//! All of this is in the frame of the crack: it comes from the left, and x is measured from its edge. Of a notch inside, x
+//! is measured from its middle, which is the mouth: what runs to the other side is not reached.
 
 pub mod branches;
 pub mod joins;
@@ -44,11 +47,11 @@ pub fn spur(setting: &Setting) -> usize {
 /// Where the foremost tip is, reference configuration, nm.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Tip {
-    /// From the left edge of the specimen.
+    /// From the left edge of the specimen; in the frame of the crack from where it is measured.
     pub x: f64,
     /// From the crack plane.
     pub y: f64,
-    /// Length of the crack from the left edge to the tip along its path.
+    /// Length of the crack to the tip along its path, from its edge; of a crack inside from the middle of its notch.
     pub arc_length: f64,
 }
 
@@ -84,13 +87,14 @@ struct Cell {
 const MOUTH: usize = 0;
 
 impl Tracker {
-    /// The crack as cut; `None` where the specimen has none.
+    /// The crack as cut, in its own frame; `None` where the specimen has none.
     pub fn new(setting: &Setting) -> Option<Tracker> {
         let notch = Notch {
             spacing: setting.spacing,
             left_x: setting.left_x,
             row: setting.crack_row? - 1,
             cut_end: setting.crack_length,
+            is_inside: setting.is_crack_inside(),
         };
         let cut = notch.cut_bonds();
         let mouth = cut

@@ -59,11 +59,12 @@ impl Band {
     pub fn follow(&mut self, tracker: &Tracker, events: &[BondEvent]) -> Option<f64> {
         for event in events.iter().filter(|event| event.broken) {
             let [x, y] = tracker.place(event);
-            if y.abs() <= self.off || tracker.depth(event).is_some() {
+            // Behind the middle of a notch inside runs another crack, which is not followed.
+            if x < 0.0 || y.abs() <= self.off || tracker.depth(event).is_some() {
                 continue;
             }
             let side = &mut self.sides[usize::from(y > 0.0)];
-            let stretch = (x / self.width).max(0.0) as usize;
+            let stretch = (x / self.width) as usize;
             let last = side.broken.len() - 1;
             side.broken[stretch.min(last)] = true;
             side.count += 1;

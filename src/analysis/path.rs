@@ -2,6 +2,7 @@
 
 use super::crack::Tracker;
 use super::crack::plaquette::Bond;
+use super::frame::Frame;
 use super::series::{Series, Setting};
 
 /// A bond that broke.
@@ -21,7 +22,8 @@ pub struct BrokenBond {
 
 /// The bonds that broke, in the order in which they first did; empty without a crack.
 pub fn broken_bonds(series: &Series, setting: &Setting) -> Vec<BrokenBond> {
-    let Some(tracker) = Tracker::new(setting) else {
+    let frame = Frame::of(setting);
+    let Some(tracker) = Tracker::new(&frame.setting(setting)) else {
         return Vec::new();
     };
     let mut found: Vec<BrokenBond> = Vec::new();
@@ -30,12 +32,13 @@ pub fn broken_bonds(series: &Series, setting: &Setting) -> Vec<BrokenBond> {
         let Some(row) = series.probes.get(event.probe as usize) else {
             continue;
         };
+        let event = &frame.event(event);
         if let Some(&known) = number.get(&Bond::of(event)) {
             let bond: &mut BrokenBond = &mut found[known];
             bond.closed = !event.broken;
         } else if event.broken && !tracker.is_cut(event) {
             number.insert(Bond::of(event), found.len());
-            let [x, y] = tracker.place(event);
+            let [x, y] = frame.place(tracker.place(event));
             found.push(BrokenBond {
                 x,
                 y,

@@ -72,6 +72,18 @@ pub struct BondEvent {
     pub broken: bool,
 }
 
+/// Where a crack comes from, and so from where its length is measured. nm from the left edge.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum CrackFrom {
+    /// The left edge.
+    #[default]
+    Left,
+    /// The right edge, which is here; the crack runs left.
+    Right { edge: f64 },
+    /// The middle of a notch that reaches no edge; of its two tips the one that runs right is followed.
+    Inside { center: f64 },
+}
+
 /// What the analysis must know of the specimen and the material besides the series. Internal units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setting {
@@ -85,7 +97,8 @@ pub struct Setting {
     pub height: f64,
     /// The crack is cut between lattice rows `crack_row - 1` and `crack_row`; `None`: no crack.
     pub crack_row: Option<i32>,
-    /// Length of the cut from the left edge, nm.
+    pub crack_from: CrackFrom,
+    /// From where the crack is measured, its edge or its middle, to the end of the cut, nm.
     pub crack_length: f64,
     /// Strain rate, 1/ps.
     pub strain_rate: f64,
@@ -105,6 +118,23 @@ pub struct Setting {
     pub nodes: u64,
     pub elements: u64,
     pub represented_atoms: u64,
+}
+
+impl Setting {
+    /// Both ends of the notch, nm from the left edge.
+    pub fn notch(&self) -> [f64; 2] {
+        let length = self.crack_length;
+        match self.crack_from {
+            CrackFrom::Left => [0.0, length],
+            CrackFrom::Right { edge } => [edge - length, edge],
+            CrackFrom::Inside { center } => [center - length, center + length],
+        }
+    }
+
+    /// Whether the notch reaches no edge.
+    pub fn is_crack_inside(&self) -> bool {
+        matches!(self.crack_from, CrackFrom::Inside { .. })
+    }
 }
 
 #[cfg(test)]

@@ -16,7 +16,8 @@ use super::series::{Series, Setting};
 pub const FROM_SPACINGS: f64 = 4.0;
 pub const FROM_ELEMENTS: f64 = 1.0;
 
-/// The fit ends at this share of the crack length, the ligament or the height, whichever is smallest.
+/// The fit ends at this share of the crack length (half of it where the notch is inside), the ligament or the height, whichever
+/// is smallest.
 pub const TO_SHARE: f64 = 1.0 / 3.0;
 
 /// A tip farther than this, and than an element edge, from the plane of the profile has kinked: the first edge that a
@@ -75,8 +76,8 @@ pub fn near_tip(series: &Series, probe: usize, tip: Tip, setting: &Setting) -> R
     let from = setting.spacing * FROM_SPACINGS.max(FROM_ELEMENTS * f64::from(setting.element_at_crack));
     let to = TO_SHARE * tip.min(setting.length - tip).min(setting.height);
     let points: Vec<(f64, f64)> = ahead(series, probe, tip)
-        .filter(|(r, stress, _)| (from..=to).contains(r) && stress[1].is_finite())
-        .map(|(r, stress, _)| (r, stress[1] * (2.0 * PI * r).sqrt()))
+        .filter(|bin| (from..=to).contains(&bin.distance) && bin.stress[1].is_finite())
+        .map(|bin| (bin.distance, bin.stress[1] * (2.0 * PI * bin.distance).sqrt()))
         .collect();
     if points.len() < LEAST_BINS {
         return Err(Refusal::FewBins);
@@ -141,15 +142,32 @@ pub fn griffith(setting: &Setting) -> f64 {
     (setting.fracture_energy * setting.young_modulus).sqrt() / setting.thickness
 }
 
-/// The profile of one probe ahead of a tip: distance (nm), stress xx, yy, xy and, where it was recorded, traction x, y
-/// (eV/nm^3) of each bin.
-pub fn ahead(series: &Series, probe: usize, tip: f64) -> impl Iterator<Item = (f64, [f64; 3], Option<[f64; 2]>)> {
+/// One bin of a profile ahead of the tip.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Ahead {
+    /// ps
+    pub time: f64,
+    /// From the tip, nm.
+    pub distance: f64,
+    /// Virial stress xx, yy, xy and traction x, y across the crack plane, eV/nm^3; runs of older versions have no traction.
+    pub stress: [f64; 3],
+    pub traction: Option<[f64; 2]>,
+}
+
+/// The profile of one probe ahead of a tip at x.
+pub fn ahead(series: &Series, probe: usize, tip: f64) -> impl Iterator<Item = Ahead> {
     let bins = series.profile_x.len();
     let row = probe * bins..(probe + 1) * bins;
     let stresses = series.profiles.get(row.clone()).unwrap_or_default();
     let tractions = series.tractions.get(row).unwrap_or_default();
     let places = series.profile_x.iter().zip(stresses).enumerate();
+    let time = series.probes[probe].time;
     places
-        .map(move |(bin, (x, stress))| (x - tip, *stress, tractions.get(bin).copied()))
-        .filter(|(r, ..)| *r > 0.0)
+        .map(move |(bin, (x, stress))| Ahead {
+            time,
+            distance: x - tip,
+            stress: *stress,
+            traction: tractions.get(bin).copied(),
+        })
+        .filter(|bin| bin.distance > 0.0)
 }

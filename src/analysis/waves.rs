@@ -31,8 +31,9 @@ pub enum Wave {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Face {
-    /// There and back along the crack.
+    /// There and back along the crack, which comes from there; in the frame of the crack that is the left.
     Left,
+    Right,
     /// From the crack plane to the grips and back: the height of the specimen.
     TopAndBottom,
 }
@@ -41,7 +42,7 @@ impl Face {
     /// From the end of the notch to the face and back to a tip, nm: to the nearer of the grips.
     fn path(self, notch: &Tip, tip: &Tip, setting: &Setting) -> f64 {
         match self {
-            Self::Left => notch.x + tip.x,
+            Self::Left | Self::Right => notch.x + tip.x,
             Self::TopAndBottom => (setting.height - tip.y.abs()).hypot(tip.x - notch.x),
         }
     }
@@ -59,7 +60,8 @@ impl Wave {
 }
 
 /// Every wave on its way, sent out from the end of the notch when the crack starts. Predicted are straight paths at the
-/// speeds of long waves. A Rayleigh wave runs along the crack faces only, so none comes from the top and bottom.
+/// speeds of long waves. A Rayleigh wave runs along the crack faces only, so none comes from the top and bottom. The faces of a
+/// notch inside lead to no side of the specimen.
 pub fn arrivals(tips: &[Tip], initiation: Option<Initiation>, series: &Series, setting: &Setting) -> Vec<Arrival> {
     let Some(notch) = tips.first() else {
         return Vec::new();
@@ -85,11 +87,15 @@ pub fn arrivals(tips: &[Tip], initiation: Option<Initiation>, series: &Series, s
             measured: initiation.and_then(|start| picking::pick(wave, face, path, start, series, setting)),
         }
     };
-    vec![
-        arrival(Wave::Longitudinal, Face::Left),
-        arrival(Wave::Transverse, Face::Left),
-        arrival(Wave::Rayleigh, Face::Left),
-        arrival(Wave::Longitudinal, Face::TopAndBottom),
-        arrival(Wave::Transverse, Face::TopAndBottom),
-    ]
+    let ways = [
+        (Wave::Longitudinal, Face::Left),
+        (Wave::Transverse, Face::Left),
+        (Wave::Rayleigh, Face::Left),
+        (Wave::Longitudinal, Face::TopAndBottom),
+        (Wave::Transverse, Face::TopAndBottom),
+    ];
+    let ways = ways
+        .into_iter()
+        .filter(|(_, face)| *face == Face::TopAndBottom || !setting.is_crack_inside());
+    ways.map(|(wave, face)| arrival(wave, face)).collect()
 }

@@ -152,12 +152,26 @@ impl SiteSet {
         starts.fold(f64::INFINITY, f64::min)
     }
 
+    /// Lattice x of the right edge: the rightmost site. It is that of the left edge after half a turn where the rows are even
+    /// in number, while the length of the layout counts what the teeth of both sides leave out.
+    pub fn right(&self) -> f64 {
+        let ends = (0..self.rows()).map(|row| triangular::position([self.columns(row).end - 1, row])[0]);
+        ends.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// How far from the left edge the last bond across the middle is, in spacings: where the row above it ends and the one
     /// below it, which is half a spacing shorter, do.
     pub fn last_bond(&self) -> f64 {
         let middle = self.middle_row();
         let ends = [middle - 1, middle].map(|row| triangular::position([self.columns(row).end - 1, row])[0]);
         0.5 * (ends[0] + ends[1]) - self.left()
+    }
+
+    /// How far from the left edge the first one is. From the right edge the last is as far.
+    pub fn first_bond(&self) -> f64 {
+        let middle = self.middle_row();
+        let starts = [middle - 1, middle].map(|row| triangular::position([self.columns(row).start, row])[0]);
+        0.5 * (starts[0] + starts[1]) - self.left()
     }
 
     /// The boundary between lattice rows at which a crack through the middle is cut: a boundary of element rows,

@@ -82,7 +82,7 @@ pub const COMPARED: [Compared; 6] = [
         row: CASE,
         keys: &[
             ("wave", &["longitudinal", "transverse", "rayleigh"]),
-            ("path", &["left face", "top and bottom faces"]),
+            ("path", &["left face", "right face", "top and bottom faces"]),
         ],
         values: &["reference_ps"],
     },

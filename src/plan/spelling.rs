@@ -126,11 +126,16 @@ fn region(region: &Region) -> Value {
 
 fn notch(crack: &Crack) -> Value {
     let Crack {
-        edge: Edge::Left,
+        edge,
         length: extent,
         end,
     } = *crack;
-    let mut spelled = json!({ "edge": "left", "length": length(extent) });
+    let mut spelled = match edge {
+        Edge::Left => json!({ "edge": "left" }),
+        Edge::Right => json!({ "edge": "right" }),
+        Edge::None { center } => json!({ "edge": "none", "center": length(center) }),
+    };
+    spelled["length"] = length(extent);
     if let Some(end) = end {
         spelled["end"] = match end {
             NotchEnd::Corner => "corner".into(),

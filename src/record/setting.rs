@@ -3,7 +3,11 @@
 use hdf5::Group;
 
 use super::arrays::{get_scalar, new_group, put_scalar};
-use crate::analysis::series::Setting;
+use crate::analysis::series::{CrackFrom, Setting};
+
+/// The right edge, from which a crack comes, and the middle of a notch that reaches no edge.
+const RIGHT: &str = "crack_from_right_edge";
+const CENTER: &str = "crack_center";
 
 pub(super) fn put_setting(parent: &Group, setting: &Setting) -> hdf5::Result<()> {
     // Taken apart by name, so that a new member cannot be forgotten here.
@@ -13,6 +17,7 @@ pub(super) fn put_setting(parent: &Group, setting: &Setting) -> hdf5::Result<()>
         left_x,
         height,
         crack_row,
+        crack_from,
         crack_length,
         strain_rate,
         thickness,
@@ -53,6 +58,12 @@ pub(super) fn put_setting(parent: &Group, setting: &Setting) -> hdf5::Result<()>
         put_scalar(&group, name, "1", *count)?;
     }
     put_scalar(&group, "element_at_crack", "1", *element_at_crack)?;
+    // A crack from the left: no dataset.
+    match crack_from {
+        CrackFrom::Left => {}
+        CrackFrom::Right { edge } => put_scalar(&group, RIGHT, "nm", *edge)?,
+        CrackFrom::Inside { center } => put_scalar(&group, CENTER, "nm", *center)?,
+    }
     // No crack: no dataset.
     crack_row.map_or(Ok(()), |row| put_scalar(&group, "crack_row", "1", row))
 }
@@ -68,6 +79,7 @@ pub(super) fn get_setting(parent: &Group) -> hdf5::Result<Setting> {
             .link_exists("crack_row")
             .then(|| get_scalar(group, "crack_row"))
             .transpose()?,
+        crack_from: get_crack_from(group)?,
         crack_length: get_scalar(group, "crack_length")?,
         strain_rate: get_scalar(group, "strain_rate")?,
         thickness: get_scalar(group, "thickness")?,
@@ -82,4 +94,17 @@ pub(super) fn get_setting(parent: &Group) -> hdf5::Result<Setting> {
         elements: get_scalar(group, "elements")?,
         represented_atoms: get_scalar(group, "represented_atoms")?,
     })
+}
+
+/// Runs of older versions have cracks from the left alone.
+fn get_crack_from(group: &Group) -> hdf5::Result<CrackFrom> {
+    if group.link_exists(RIGHT) {
+        let edge = get_scalar(group, RIGHT)?;
+        return Ok(CrackFrom::Right { edge });
+    }
+    if group.link_exists(CENTER) {
+        let center = get_scalar(group, CENTER)?;
+        return Ok(CrackFrom::Inside { center });
+    }
+    Ok(CrackFrom::Left)
 }

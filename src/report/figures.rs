@@ -3,7 +3,6 @@
 mod arrivals;
 
 use super::Analysed;
-use super::ahead::profile_at_initiation;
 use super::chart::{Chart, Content, Curve};
 use super::units::{GIGAPASCAL, PERCENT};
 use super::{numbers, precision};
@@ -151,7 +150,7 @@ fn tip_position(cases: &[Analysed]) -> Chart {
 
 fn profile(cases: &[Analysed]) -> Chart {
     let stress = |case: &Analysed| {
-        let bins = profile_at_initiation(case).into_iter();
+        let bins = case.findings.ahead.iter();
         bins.map(|bin| (bin.distance, bin.stress[1] * GIGAPASCAL)).collect()
     };
     Chart {
@@ -170,7 +169,7 @@ fn profile(cases: &[Analysed]) -> Chart {
 
 fn traction(cases: &[Analysed]) -> Chart {
     let traction = |case: &Analysed| {
-        let bins = profile_at_initiation(case).into_iter();
+        let bins = case.findings.ahead.iter();
         bins.filter_map(|bin| Some((bin.distance, bin.traction?[1] * GIGAPASCAL)))
             .collect()
     };

@@ -7,7 +7,7 @@ use crate::analysis::crack::YARDSTICK_SPACINGS;
 use crate::analysis::crack::leaving::LEAVES_PLANE_SPACINGS;
 use crate::analysis::crack::{SPUR_ELEMENTS, SPUR_SPACINGS};
 use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED, CREEP_GROWTH, STAND_GROWTH};
-use crate::analysis::series::RINGS;
+use crate::analysis::series::{CrackFrom, RINGS, Setting};
 use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
 use crate::analysis::stress_intensity::{
     FROM_ELEMENTS, FROM_SPACINGS, LEAST_GRIFFITH_SHARE, MOST_CORRECTION, MOST_ERROR_SHARE, MOST_RING_SHARE,
@@ -135,7 +135,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
             "Waves",
             format!(
                 "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves, to a \
-                 tip at rest and (at the running tip) to where it is by then. Measured: wave gauges halfway to the grips and halfway to the left edge record the mean \
+                 tip at rest and (at the running tip) to where it is by then. Measured: wave gauges halfway to the grips and halfway along the notch to its edge record the mean \
                  velocity v and stress σ of a patch; σ ± ρcv is what a plane wave brings back towards the tip, and is \
                  untouched by what leaves it. Where it bends most, where its mean over the next {} % of the predicted \
                  time lies farthest off its line over the {} % before, the wave is at the gauge, and the way from there \
@@ -157,6 +157,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 .to_owned(),
         ),
     ];
+    notes.splice(1..1, sides(cases));
     notes.extend(resolution::notes(cases));
     let treatment = |case: &Analysed| {
         let about = case
@@ -172,5 +173,36 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
     let mut treatments: Vec<String> = cases.iter().map(treatment).filter(|text| !text.is_empty()).collect();
     treatments.dedup();
     notes.extend(treatments.into_iter().map(|text| ("Potential", text)));
+    notes
+}
+
+/// What is to be known of cracks that do not come from the left.
+fn sides(cases: &[Analysed]) -> Vec<(&'static str, String)> {
+    let named = |is_so: fn(&Setting) -> bool| {
+        let such = cases
+            .iter()
+            .filter(|case| case.result.setting.as_ref().is_some_and(is_so));
+        such.map(Analysed::name).collect::<Vec<_>>().join(", ")
+    };
+    let right = named(|setting| matches!(setting.crack_from, CrackFrom::Right { .. }));
+    let inside = named(Setting::is_crack_inside);
+    let mut notes = Vec::new();
+    if !right.is_empty() {
+        let text = format!(
+            "In {right} the crack begins at the right edge and runs left. Its length, and what ends a run at a crack length, is \
+             measured from there; places are from the left edge as everywhere, and angles from the x axis, so that straight \
+             ahead is 180 degrees."
+        );
+        notes.push(("Crack from the right", text));
+    }
+    if !inside.is_empty() {
+        let text = format!(
+            "In {inside} the notch lies inside and has two tips. All that is said of the crack is said of the one that runs to the \
+             right: tip, start, speed, K, branches, and what ends a run. Its length is measured from the middle of the notch to the \
+             tip. What runs to the left shows in the pictures and in the table path alone. Waves from the sides and the geometry \
+             factors, which are those of a crack from an edge, are left out."
+        );
+        notes.push(("Crack inside", text));
+    }
     notes
 }

@@ -4,12 +4,12 @@ use std::path::Path;
 
 use polars::prelude::*;
 
-use super::ahead::{Ahead, profile_at_initiation};
 use super::numbers::{self, round_significant};
 use super::precision::{self, Quantity};
 use super::side_by_side::{self, Panel};
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
 use super::{Analysed, ReportError, branching, events, expected, save, scaling, specimen, toughness};
+use crate::analysis::stress_intensity::Ahead;
 use crate::analysis::waves::{Arrival, Face, Wave};
 use crate::plan::{Comparison, SCALING};
 
@@ -283,11 +283,9 @@ fn crack_speed(cases: &[Analysed]) -> Vec<Column> {
 }
 
 fn stress_profile(cases: &[Analysed]) -> Vec<Column> {
-    let rows = collect(cases, |case| {
-        profile_at_initiation(case).into_iter().map(move |row| (case, row))
-    });
-    let stress = |component: usize| move |row: &(&Analysed, Ahead)| row.1.stress[component] * GIGAPASCAL;
-    let traction = |axis: usize| move |row: &(&Analysed, Ahead)| Some(row.1.traction?[axis] * GIGAPASCAL);
+    let rows = collect(cases, |case| case.findings.ahead.iter().map(move |row| (case, row)));
+    let stress = |component: usize| move |row: &(&Analysed, &Ahead)| row.1.stress[component] * GIGAPASCAL;
+    let traction = |axis: usize| move |row: &(&Analysed, &Ahead)| Some(row.1.traction?[axis] * GIGAPASCAL);
     vec![
         rows.text("case", |row| &row.0.result.name),
         rows.number("time_ps", |row| row.1.time),
@@ -349,6 +347,7 @@ pub fn wave_name(arrival: &Arrival) -> &'static str {
 pub fn path_name(arrival: &Arrival) -> &'static str {
     match arrival.face {
         Face::Left => "left face",
+        Face::Right => "right face",
         Face::TopAndBottom => "top and bottom faces",
     }
 }

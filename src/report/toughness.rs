@@ -58,7 +58,11 @@ impl Definition {
         match self {
             Self::NearTip => case.findings.near_tip_refused,
             Self::JIntegral => case.findings.from_j_refused,
-            _ => None,
+            Self::BetweenGrips | Self::UnderStress => {
+                let (setting, _) = at_initiation(case)?;
+                setting.is_crack_inside().then_some(Refusal::NotFromAnEdge)
+            }
+            Self::EnergyBalance | Self::Griffith => None,
         }
     }
 

@@ -67,6 +67,17 @@ pub enum SetupError {
         crack: f64,
         longest: f64,
     },
+    /// Of the crack, and what severs no bond for sure, nm.
+    CrackTooShort {
+        crack: f64,
+        shortest: f64,
+    },
+    /// Of the notch, of its middle, and of the first and the last bond along it, nm.
+    NotchNotInside {
+        length: f64,
+        center: f64,
+        bonds: [f64; 2],
+    },
     /// The crack length that ends the run, and how far a crack can come, nm.
     CrackOutOfReach {
         end: f64,
@@ -175,15 +186,36 @@ impl SetupError {
             Self::CrackTooLong { crack, longest } => Refusal::new(
                 Subject::Crack,
                 format!(
-                    "the crack ({crack} nm) leaves no bond whole: as laid out, the last of the specimen is at \
-                     {longest:.2} nm"
+                    "the crack ({crack} nm) leaves no bond whole: as laid out, the last is {longest:.2} nm from the edge at \
+                     which it begins"
                 ),
                 "shorten the crack or lengthen the specimen",
             )
             .with(Subject::Length, "of this length"),
+            Self::CrackTooShort { crack, shortest } => Refusal::new(
+                Subject::Crack,
+                format!("the crack ({crack} nm) severs no bond: atoms are so far apart that it takes {shortest:.3} nm"),
+                "make it longer, or leave `crack` out",
+            ),
+            Self::NotchNotInside {
+                length,
+                center,
+                bonds: [first, last],
+            } => Refusal::new(
+                Subject::Crack,
+                format!(
+                    "a notch of {length} nm around {center} nm leaves no bond whole at an edge: as laid out, the specimen has \
+                     them from {first:.2} to {last:.2} nm"
+                ),
+                "shorten it or move `center`",
+            )
+            .with(Subject::Length, "of this length"),
             Self::CrackOutOfReach { end, longest } => Refusal::new(
                 Subject::UntilCrackLength,
-                format!("no crack can grow to {end} nm: as laid out, the last bond of the specimen is at {longest:.2} nm"),
+                format!(
+                    "no crack can grow to {end} nm: as laid out, the last bond is {longest:.2} nm from where the crack is \
+                     measured"
+                ),
                 "stop at a shorter crack",
             )
             .with(Subject::Length, "in this length"),

@@ -97,7 +97,7 @@ impl Notch {
         Some(Self {
             length: Size {
                 asked: crack.length,
-                actual: (cut.to - mesh.sites.left()) * mesh.spacing,
+                actual: cut.length(mesh) * mesh.spacing,
             },
             end: cut.end(mesh),
             severed: severed.finish(),

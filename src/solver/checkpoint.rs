@@ -36,12 +36,13 @@ pub struct Checkpoint {
     /// Bonds that the crack had parted by then, also where its faces touch, with the probes at which they broke, ascending
     /// (column, row, direction).
     pub parted_bonds: Vec<BondEvent>,
-    /// The probes at which the crack joined one ahead of it, if the run is to end after a branch.
+    /// The probes at which the crack joined one ahead of it.
     pub joins: Vec<u32>,
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,
-    /// Time at which the crack or the damage ahead of it last advanced, ps, the farthest tip and the front of the damage, nm;
+    /// Time at which the crack or the damage ahead of it last advanced, ps, the farthest tip and the front of the damage in the frame of
+    /// the crack, nm;
     /// for the stop at arrest.
     pub last_advance: f64,
     pub farthest_tip: f64,

@@ -61,7 +61,7 @@ pub enum SolverError {
     #[error("`relax` before the run: {0}")]
     NoRest(RelaxationError),
     #[error(
-        "the crack ran from {notch:.3} to {tip:.3} nm while the specimen came to rest under {:.3} % strain: it does not \
+        "the crack grew from a length of {notch:.3} to {tip:.3} nm while the specimen came to rest under {:.3} % strain: it does not \
          hold this load; start from a lower strain in `run.relax`",
         100.0 * strain
     )]

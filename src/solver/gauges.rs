@@ -1,12 +1,13 @@
 //! Wave gauges: patches of the specimen whose mean velocity and stress every probe records.
 
 use super::probe::site_volume;
+use crate::analysis::frame::Frame;
 use crate::analysis::series::Setting;
 use crate::forces::Measure;
 use crate::mesh::Mesh;
 use crate::state::State;
 
-/// Where gauges stand on the way from the crack plane to the grips, and from the tip of the notch to the left edge. Halfway,
+/// Where gauges stand on the way from the crack plane to the grips, and from the tip of the notch to its edge. Halfway,
 /// waves are plane enough, and what leaves the tip has passed before it comes back.
 const SHARE: f64 = 0.5;
 
@@ -25,7 +26,7 @@ pub struct Gauges {
 }
 
 impl Gauges {
-    /// Above and below the tip of the notch, and along its faces; none without a crack.
+    /// Above and below the tip of the notch, and along its faces where they lead to an edge; none without a crack.
     pub fn new(mesh: &Mesh, setting: &Setting) -> Self {
         let half = 0.5 * setting.height;
         let largest = mesh.elements.first().map_or(1, |element| element.size);
@@ -33,10 +34,14 @@ impl Gauges {
         let radius = (RADIUS_SHARE * half).max(setting.spacing * LEAST_SPACINGS.max(edges));
         let tip = setting.crack_length;
         let upper = [[tip, SHARE * half], [tip - SHARE * tip, radius]];
-        let places: Vec<[f64; 2]> = match setting.crack_row {
-            Some(_) => upper.into_iter().flat_map(|[x, y]| [[x, y], [x, -y]]).collect(),
-            None => Vec::new(),
+        let count = match (setting.crack_row, setting.is_crack_inside()) {
+            (None, _) => 0,
+            (Some(_), true) => 1,
+            (Some(_), false) => 2,
         };
+        let frame = Frame::of(setting);
+        let places = upper.into_iter().take(count).flat_map(|[x, y]| [[x, y], [x, -y]]);
+        let places: Vec<[f64; 2]> = places.map(|place| frame.place(place)).collect();
         let mut members = Vec::new();
         for (number, element) in mesh.elements.iter().enumerate() {
             let centre = element.centre().map(|component| component * mesh.spacing);

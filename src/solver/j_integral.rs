@@ -55,7 +55,7 @@ impl JIntegral {
         }
     }
 
-    /// J of every ring, eV/nm. The forces of the state must be those of its positions.
+    /// J of every ring for the advance of its tip, eV/nm. The forces of the state must be those of its positions.
     pub fn evaluate(&mut self, mesh: &Mesh, state: &State, rings: Rings) -> [f64; RINGS] {
         self.go_to(mesh, rings);
         let touched = self.touched.par_iter().with_min_len(TASK);
@@ -74,10 +74,11 @@ impl JIntegral {
         };
         let parts: Vec<[f64; RINGS]> = touched.map(|&element| field.contribution(element as usize)).collect();
         // In the order of the elements, so that threads leave no trace.
-        parts.into_iter().fold([0.0; RINGS], |mut sum, part| {
+        let along_x = parts.into_iter().fold([0.0; RINGS], |mut sum, part| {
             (0..RINGS).for_each(|ring| sum[ring] += part[ring]);
             sum
-        })
+        });
+        along_x.map(|j| rings.direction * j)
     }
 
     /// Elements that [`Self::evaluate`] reads, ascending: those that the rings touch, and others at the far ends of their

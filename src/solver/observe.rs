@@ -5,8 +5,6 @@ use std::time::Instant;
 use super::j_integral::Rings;
 use super::ledger::Balance;
 use super::{Moment, Observer, Phase, Progress, Reading, RunError, Solver, probe};
-use crate::analysis::crack::{Tracker, branches, spur};
-use crate::analysis::damage;
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Summation;
 
@@ -66,26 +64,15 @@ impl Solver {
     fn probe<O: Observer>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         let number = self.probes.taken() - 1;
         let bonds = self.changed_bonds(number as u32);
-        if let Some(tracker) = &mut self.tracker {
-            let earlier = tracker.tip();
-            tracker.follow(&bonds);
-            let front = damage::front(tracker, &bonds, &self.setting);
-            self.stop.follow(tracker.tip().x, front, self.time);
-            if tracker.has_left_plane() {
+        if let Some(crack) = &mut self.crack {
+            let front = crack.follow(&bonds, number as u32);
+            self.stop.follow(crack.tip().x, front, self.time);
+            if crack.has_left_plane() {
                 self.stop.leave_plane(self.time);
             }
             let is_wanted = self.settings.until.after_branch.is_some() && self.stop.branched().is_infinite();
-            if is_wanted && !bonds.is_empty() {
-                let spur = spur(&self.setting);
-                if tracker.joined(earlier, number as u32, spur).is_some() {
-                    self.joins.push(number as u32);
-                }
-                if branches::arms(tracker, spur)
-                    .iter()
-                    .any(|arm| arm.is_branch(&self.joins))
-                {
-                    self.stop.branch(self.time);
-                }
+            if is_wanted && !bonds.is_empty() && crack.has_branch() {
+                self.stop.branch(self.time);
             }
         }
         let totals = self.totals();
@@ -148,7 +135,7 @@ impl Solver {
             of: until.steps(self.step, self.time, self.time_step, time_of),
             time: self.time,
             strain: self.strain(),
-            tip: self.tracker.as_ref().map(|_| self.stop.farthest_tip()),
+            tip: self.crack.as_ref().map(|crack| crack.place(self.stop.farthest_tip())),
             residual: None,
         }
     }
@@ -196,9 +183,9 @@ impl Solver {
     /// Rings around the tip, in which J is read; `None` where there is no tip or no room for them, and where bonds of nodes
     /// stand for all others, so that the stress of the bonds is not what moves the nodes.
     fn rings(&self) -> Option<Rings> {
-        let tip = self.tracker.as_ref().map(Tracker::tip);
-        let tip = tip.filter(|_| self.settings.summation != Summation::Nodal);
-        Rings::around(tip?, self.forces.mesh(), &self.setting)
+        let crack = self.crack.as_ref();
+        let crack = crack.filter(|_| self.settings.summation != Summation::Nodal);
+        crack?.rings(self.forces.mesh())
     }
 
     /// Bonds that broke or closed since the last probe; remembers those broken now.

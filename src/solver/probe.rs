@@ -46,11 +46,10 @@ pub fn site_volume(setting: &Setting) -> f64 {
 /// Atoms an edge of the elements along the crack plane ahead of the notch; without a crack at mid-height.
 pub fn element_at_crack(mesh: &Mesh) -> u32 {
     let row = mesh.sites.middle_row();
-    let from = mesh.cut.map_or(f64::NEG_INFINITY, |cut| cut.to);
-    let ahead = mesh
-        .sites
-        .columns(row)
-        .filter(|&column| triangular::position([column, row])[0] >= from);
+    let ahead = mesh.sites.columns(row).filter(|&column| {
+        let x = triangular::position([column, row])[0];
+        mesh.cut.is_none_or(|cut| cut.is_ahead(mesh, x))
+    });
     let sizes = ahead
         .filter_map(|column| mesh.owner_of([column, row]))
         .map(|owner| mesh.elements[owner].size);

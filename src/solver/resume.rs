@@ -1,8 +1,8 @@
 //! Leaving a run and going on with it.
 
 use super::checkpoint::Checkpoint;
+use super::crack::Crack;
 use super::{Solver, SolverError};
-use crate::analysis::crack::Tracker;
 use crate::forces::Planes;
 use crate::lattice::triangular;
 
@@ -33,8 +33,11 @@ impl Solver {
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
             broken_bonds: self.broken.clone(),
-            parted_bonds: self.tracker.as_ref().map_or_else(Vec::new, Tracker::parted),
-            joins: self.joins.clone(),
+            parted_bonds: self.crack.as_ref().map_or_else(Vec::new, Crack::parted),
+            joins: self
+                .crack
+                .as_ref()
+                .map_or_else(Vec::new, |crack| crack.joins().to_vec()),
             probes: self.probes.taken(),
             snapshots: self.snapshots.taken(),
             last_advance: self.stop.last_advance(),
@@ -63,11 +66,10 @@ impl Solver {
         self.ledger
             .restore(checkpoint.start, checkpoint.peak_work, checkpoint.peak_imbalance);
         self.broken.clone_from(&checkpoint.broken_bonds);
-        self.tracker = Tracker::new(&self.setting);
-        if let Some(tracker) = &mut self.tracker {
-            tracker.follow(&checkpoint.parted_bonds);
+        self.crack = Crack::new(&self.setting);
+        if let Some(crack) = &mut self.crack {
+            crack.go_on_from(&checkpoint.parted_bonds, &checkpoint.joins);
         }
-        self.joins.clone_from(&checkpoint.joins);
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
         let Checkpoint {

@@ -1,10 +1,11 @@
 //! What the analysis must know of a specimen.
 
 use super::probe;
-use crate::analysis::series::Setting;
+use crate::analysis::series::{CrackFrom, Setting};
 use crate::loading::Stretching;
 use crate::material::{Elasticity, Material, WaveSpeeds};
 use crate::mesh::Mesh;
+use crate::mesh::cut::Side;
 
 /// Gathers what the analysis must know.
 pub fn setting(mesh: &Mesh, material: &Material, loading: &Stretching, thickness: f64) -> Setting {
@@ -12,13 +13,27 @@ pub fn setting(mesh: &Mesh, material: &Material, loading: &Stretching, thickness
     let speeds = WaveSpeeds::of(material);
     let left = mesh.sites.left();
     let [low, high] = mesh.grip_edges();
+    let side = mesh.cut.map_or(Side::Left, |cut| cut.side(mesh));
+    let length = mesh.cut.map_or(0.0, |cut| cut.length(mesh));
+    let (crack_from, measured) = match side {
+        Side::Left => (CrackFrom::Left, length),
+        Side::Right => {
+            let edge = (mesh.sites.right() - left) * mesh.spacing;
+            (CrackFrom::Right { edge }, length)
+        }
+        Side::Inside { center } => {
+            let center = center * mesh.spacing;
+            (CrackFrom::Inside { center }, 0.5 * length)
+        }
+    };
     Setting {
         spacing: mesh.spacing,
         length: mesh.sites.layout.length() * mesh.spacing,
         left_x: left * mesh.spacing,
         height: high - low,
         crack_row: mesh.cut.map(|cut| cut.row),
-        crack_length: mesh.cut.map_or(0.0, |cut| (cut.to - left) * mesh.spacing),
+        crack_from,
+        crack_length: measured * mesh.spacing,
         strain_rate: loading.rate,
         thickness,
         longitudinal_speed: speeds.longitudinal,

@@ -10,7 +10,7 @@ pub struct Until {
     pub strain: Option<f64>,
     /// ps
     pub time: Option<f64>,
-    /// Distance of the foremost tip from the left edge, nm.
+    /// From the edge that the crack comes from, or the middle of a notch inside, to the foremost tip, nm.
     pub crack_length: Option<f64>,
     /// The crack has set out and then stood still for this long, ps.
     pub arrest: Option<f64>,
@@ -91,7 +91,7 @@ impl Watch {
         }
     }
 
-    /// Where the foremost tip and the front of the damage are, nm from the left edge, at a time, ps. A crack whose damage
+    /// Where the foremost tip and the front of the damage are in the frame of the crack, nm, at a time, ps. A crack whose damage
     /// goes on ahead of its tip has not come to rest.
     pub fn follow(&mut self, tip: f64, front: f64, time: f64) {
         if tip.max(front) > self.farthest.max(self.front) {
@@ -111,7 +111,7 @@ impl Watch {
         self.left_plane
     }
 
-    /// nm from the left edge
+    /// nm, in the frame of the crack
     pub fn front(&self) -> f64 {
         self.front
     }
@@ -126,7 +126,7 @@ impl Watch {
         self.branched
     }
 
-    /// nm from the left edge
+    /// nm, in the frame of the crack
     pub fn farthest_tip(&self) -> f64 {
         self.farthest
     }
@@ -175,6 +175,7 @@ impl Watch {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::analysis::series::CrackFrom;
 
     /// A notch of 10 nm in atoms 0.25 nm apart; the crack has set out beyond 13 nm.
     fn watch() -> Watch {
@@ -198,6 +199,7 @@ mod tests {
             left_x: 0.0,
             height: 50.0,
             crack_row: Some(30),
+            crack_from: CrackFrom::Left,
             crack_length: 10.0,
             strain_rate: 1e-3,
             thickness: 1.0,

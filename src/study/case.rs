@@ -117,7 +117,7 @@ pub enum RegionShape {
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Crack {
     pub edge: Edge,
-    /// nm
+    /// From end to end, nm.
     pub length: f64,
     /// Where the notch ends among the elements along the crack plane; `None`: as long as given.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -132,9 +132,24 @@ pub enum NotchEnd {
     MidEdge,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub enum Edge {
     Left,
+    Right,
+    None {
+        /// Of the middle of the notch from the left edge, nm.
+        center: f64,
+    },
+}
+
+impl Crack {
+    /// From where the crack is measured, its edge or the middle of its notch, to the tip, nm.
+    pub fn measured(&self) -> f64 {
+        match self.edge {
+            Edge::Left | Edge::Right => self.length,
+            Edge::None { .. } => 0.5 * self.length,
+        }
+    }
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -184,7 +199,7 @@ pub struct Until {
     pub strain: Option<f64>,
     /// ps
     pub time: Option<f64>,
-    /// Distance of the foremost tip from the edge the crack starts at, nm.
+    /// Distance of the foremost tip from the edge the crack starts at, or from the middle of a notch inside, nm.
     pub crack_length: Option<f64>,
     /// The crack has started and then stood still for this long, ps.
     pub arrest: Option<f64>,

@@ -144,11 +144,14 @@ pub struct Disc {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Crack {
-    /// The edge at which the crack begins.
+    /// The edge at which the crack begins; `left` where left out.
     pub edge: Given<Edge>,
+    /// Where the middle of a notch inside is, from the left edge; for `edge: none` only, and needed there.
+    pub center: Given<Length>,
+    /// Of the notch, from end to end.
     pub length: Given<Length>,
     /// Where the notch ends among the elements along the crack plane; as long as given where left out. Atoms have neither
-    /// corners nor edges: there it is as long as given.
+    /// corners nor edges: there it is as long as given. Not for `edge: none`.
     pub end: Given<NotchEnd>,
 }
 
@@ -164,7 +167,13 @@ pub enum NotchEnd {
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Edge {
+    /// The crack runs right.
     Left,
+    /// The crack runs left.
+    Right,
+    /// The notch lies inside and has two tips. The analysis follows the one that runs right, and measures the crack from the
+    /// middle of the notch. Pictures and the table of broken bonds show both.
+    None,
 }
 
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -228,7 +237,8 @@ pub struct Until {
     /// Nominal strain.
     pub strain: Given<Fraction>,
     pub time: Given<Time>,
-    /// Distance of the tip from the edge at which the crack begins.
+    /// Distance of the tip from the edge at which the crack begins; for `edge: none` from the middle of the notch, so that it
+    /// begins as half of `crack.length`.
     pub crack_length: Given<Length>,
     /// The crack has started and then stood still for this long.
     pub arrest: Given<Time>,

@@ -2,6 +2,7 @@
 //!
 //! A mistake keeps nothing else from being checked: what depends on a wrong value is left out, what does not is not.
 
+mod crack;
 mod material;
 mod resolution;
 mod run;
@@ -201,6 +202,7 @@ fn example(path: &str, dimension: units::Dimension) -> &'static str {
         _ if path == "probes.every" => "1 ps",
         _ if path == "run.time-step" => "2 fs",
         _ if path == "crack.length" => "56 nm",
+        _ if path == "crack.center" => "283 nm",
         _ if path == "specimen.length" => "566 nm",
         _ => dimension.example(),
     }

@@ -5,7 +5,7 @@ mod interrupted;
 mod others;
 mod pieces;
 
-use cgaft::analysis::series::{BondEvent, Probe, Series, Setting};
+use cgaft::analysis::series::{BondEvent, CrackFrom, Probe, Series, Setting};
 use cgaft::record::frames::{FieldMesh, Frame};
 use cgaft::solver::checkpoint::Checkpoint;
 
@@ -106,6 +106,7 @@ fn setting(crack_row: Option<i32>) -> Setting {
         left_x: number(3),
         height: number(4),
         crack_row,
+        crack_from: CrackFrom::Left,
         crack_length: number(5),
         strain_rate: number(6),
         thickness: number(7),

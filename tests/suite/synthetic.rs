@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use cgaft::analysis::series::{BondEvent, Probe, Series, Setting};
+use cgaft::analysis::series::{BondEvent, CrackFrom, Probe, Series, Setting};
 use cgaft::record::frames::{FieldMesh, Frame};
 
 pub const SPACING: f64 = 0.2277 * 1.122_462_048_309_373;
@@ -15,6 +15,7 @@ pub fn setting() -> Setting {
         left_x: 40.0 * SPACING,
         height: 130.0 * SPACING,
         crack_row: Some(75),
+        crack_from: CrackFrom::Left,
         crack_length: 100.0 * SPACING,
         strain_rate: 1e-4,
         thickness: 0.2087,

@@ -2,19 +2,25 @@
 
 use super::plaquette::{Bond, Plaquette};
 
-/// The cut, and where it lies in the lattice.
+/// A cut that ends on the middle of a bond leaves it whole. The mesh knows its ends in spacings, and here they are in nm.
+const ROUNDING: f64 = 1e-9;
+
+/// The cut, and where it lies in the lattice. It is measured from the origin of the crack's frame: the edge that the crack
+/// comes from, or the middle of a notch that reaches no edge.
 #[derive(Clone, Copy, Debug)]
 pub struct Notch {
     pub spacing: f64,
+    /// Lattice x of the origin, nm.
     pub left_x: f64,
     /// Bonds between lattice rows `row` and `row + 1` are cut.
     pub row: i32,
     pub cut_end: f64,
+    /// The cut is as long on the other side of the origin.
+    pub is_inside: bool,
 }
 
 impl Notch {
-    /// The severed bonds, left to right. A bond counts as severed when its middle is left of the end of the cut;
-    /// half a spacing more is taken in, so that a crack is found whichever of its ends decides where the cut stops.
+    /// The severed bonds from the origin on, left to right.
     pub fn cut_bonds(&self) -> Vec<Bond> {
         let first = ((self.left_x / self.spacing) - 0.5 * f64::from(self.row)).floor() as i32;
         let count = (self.cut_end / self.spacing).ceil() as i32;
@@ -26,16 +32,18 @@ impl Notch {
                     direction,
                 })
             })
-            .filter(|bond| self.is_cut(*bond))
+            .filter(|bond| self.is_cut(*bond) && self.place(*bond)[0] >= -ROUNDING * self.spacing)
             .collect()
     }
 
+    /// A bond is severed when its middle is before the end of the cut, as in the mesh.
     pub fn is_cut(&self, bond: Bond) -> bool {
         let x = self.place(bond)[0];
-        bond.row == self.row && bond.direction != 0 && x >= 0.0 && x < self.cut_end + 0.5 * self.spacing
+        let off = if self.is_inside { x.abs() } else { x };
+        self.is_in_plane(bond) && off >= 0.0 && off < self.cut_end - ROUNDING * self.spacing
     }
 
-    /// Middle of a bond, nm from the left edge and from the crack plane.
+    /// Middle of a bond, nm from the origin and from the crack plane.
     pub fn place(&self, bond: Bond) -> [f64; 2] {
         let [x, y] = bond.midpoint();
         let plane = (f64::from(self.row) + 0.5) * 0.75_f64.sqrt();
@@ -47,7 +55,7 @@ impl Notch {
         bond.row == self.row && bond.direction != 0
     }
 
-    /// Centre of a plaquette, nm from the left edge and from the crack plane.
+    /// Centre of a plaquette, nm from the origin and from the crack plane.
     pub fn centre(&self, of: Plaquette) -> [f64; 2] {
         let sides = [0, 1, 2].map(|direction| self.place(of.across(direction).0));
         [0, 1].map(|axis| sides.iter().map(|side| side[axis]).sum::<f64>() / 3.0)

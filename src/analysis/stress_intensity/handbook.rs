@@ -145,19 +145,22 @@ pub fn factor_between_grips(grips: Grips, height: f64, length: f64, crack: f64) 
     between(&curve, height / length, f64::INFINITY)
 }
 
-/// K of the crack as cut between the grips, after a strain, eV/nm^2.5.
+/// K of the crack as cut between the grips, after a strain, eV/nm^2.5; `None` where it comes from no edge.
 pub fn between_grips(setting: &Setting, grips: Grips, strain: f64) -> Option<f64> {
+    if setting.is_crack_inside() {
+        return None;
+    }
     let crack = setting.crack_length;
     let factor = factor_between_grips(grips, setting.height, setting.length, crack)?;
     Some(factor * setting.young_modulus / setting.thickness * strain * (PI * crack).sqrt())
 }
 
 /// K of the crack as cut under a uniform stress (eV/nm^3) on a long strip, eV/nm^2.5: what the specimen would have if its
-/// grips followed. After Tada, as handbooks give it.
+/// grips followed. After Tada, as handbooks give it; `None` where the crack comes from no edge.
 pub fn under_stress(setting: &Setting, stress: f64) -> Option<f64> {
     let x = setting.crack_length / setting.length;
     let factor = 1.12 - 0.231 * x + 10.55 * x.powi(2) - 21.72 * x.powi(3) + 30.39 * x.powi(4);
-    (x <= MOST_CRACK).then(|| factor * stress * (PI * setting.crack_length).sqrt())
+    (x <= MOST_CRACK && !setting.is_crack_inside()).then(|| factor * stress * (PI * setting.crack_length).sqrt())
 }
 
 /// K of the energy that the height of the specimen holds far ahead of a long crack, C11 strain^2 H/2, which is what the

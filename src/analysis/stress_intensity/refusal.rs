@@ -12,6 +12,7 @@ pub enum Refusal {
     Outflow,
     UnlikeRings,
     BelowGriffith,
+    NotFromAnEdge,
 }
 
 impl std::fmt::Display for Refusal {
@@ -25,6 +26,7 @@ impl std::fmt::Display for Refusal {
             Self::NoRings => "there is no room for rings around the tip, or none are read",
             Self::Outflow => "waves take more energy out of a ring than flows in",
             Self::UnlikeRings => "the rings do not agree: the field around the tip is not that of a crack",
+            Self::NotFromAnEdge => "its factor is that of a crack from an edge, and this one reaches none",
             Self::BelowGriffith => {
                 "less energy would flow to the tip than its surfaces cost: the field around it is not that of a crack that \
                  is about to run, because waves of the loading pass it or bonds have parted within the rings"

@@ -80,11 +80,11 @@ fn returning(wave: Wave, face: Face, series: &Series, setting: &Setting) -> Opti
     // Velocity and stress that the wave carries, and their signs below the crack plane as seen in a mirror.
     let [vx, vy, xx, yy, xy] = [0, 1, 2, 3, 4usize];
     let (velocity, stress, mirrored) = match (wave, face) {
+        (Wave::Rayleigh, _) => return None,
         (Wave::Longitudinal, Face::TopAndBottom) => (vy, yy, [-1.0, 1.0]),
         (Wave::Transverse, Face::TopAndBottom) => (vx, xy, [1.0, -1.0]),
-        (Wave::Longitudinal, Face::Left) => (vx, xx, [1.0, 1.0]),
-        (Wave::Transverse, Face::Left) => (vy, xy, [-1.0, -1.0]),
-        (Wave::Rayleigh, _) => return None,
+        (Wave::Longitudinal, _) => (vx, xx, [1.0, 1.0]),
+        (Wave::Transverse, _) => (vy, xy, [-1.0, -1.0]),
     };
     // From the top waves come down, along -y; from the left along +x.
     let sign = if face == Face::TopAndBottom { 1.0 } else { -1.0 };
@@ -98,7 +98,7 @@ fn returning(wave: Wave, face: Face, series: &Series, setting: &Setting) -> Opti
     let [x, y] = series.gauge_places[first];
     let way = match face {
         Face::TopAndBottom => y,
-        Face::Left => setting.crack_length - x,
+        Face::Left | Face::Right => setting.crack_length - x,
     };
     Some((signal.collect(), way))
 }
@@ -116,7 +116,7 @@ fn gauges(face: Face, series: &Series, setting: &Setting) -> Option<(usize, usiz
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::series::Probe;
+    use crate::analysis::series::{CrackFrom, Probe};
 
     /// Copper-like constants to four digits.
     const DIGITS: f64 = 2e-3;
@@ -128,6 +128,7 @@ mod tests {
             left_x: 0.0,
             height: 40.0,
             crack_row: Some(80),
+            crack_from: CrackFrom::Left,
             crack_length: 46.0,
             strain_rate: 1e-4,
             thickness: 0.2087,

@@ -126,10 +126,10 @@ fn groups(cut: &Cut, tips: &BTreeSet<[i32; 2]>, below: bool) -> Vec<Vec<[i32; 2]
 mod tests {
     use super::*;
     use crate::mesh::Plan;
-    use crate::mesh::cut::Crack;
+    use crate::mesh::cut::{Crack, Side};
     use crate::mesh::sites::Layout;
 
-    fn mesh(crack_length: Option<f64>) -> Mesh {
+    fn mesh(crack: Option<Crack>) -> Mesh {
         let layout = Layout {
             block: 6,
             rows: 4,
@@ -139,7 +139,7 @@ mod tests {
             layout,
             element: 1,
             regions: vec![],
-            crack: crack_length.map(Crack::of_length),
+            crack,
             grip_rows: 6,
             spacing: 1.0,
         })
@@ -147,8 +147,14 @@ mod tests {
 
     #[test]
     fn types_sever_the_pairs_that_the_cut_severs_and_no_others() {
-        for (crack_length, cutoff) in [(11.0, 1.33), (11.3, 1.33), (11.6, 1.7), (12.0, 2.5)] {
-            let mesh = mesh(Some(crack_length));
+        let lengths = [(11.0, 1.33), (11.3, 1.33), (11.6, 1.7), (12.0, 2.5)];
+        let sides = [Side::Left, Side::Right, Side::Inside { center: 13.2 }];
+        for (side, (length, cutoff)) in sides.into_iter().flat_map(|side| lengths.map(|length| (side, length))) {
+            let crack = Crack {
+                side,
+                ..Crack::of_length(length)
+            };
+            let mesh = mesh(Some(crack));
             let types = AtomTypes::new(&mesh, cutoff);
             let sites: Vec<[i32; 2]> = mesh.sites.iter().collect();
             let mut severed = 0;

@@ -36,7 +36,7 @@ impl WantedEnd {
     /// The place of this kind nearest to a wanted one, lattice x in spacings: the wanted one itself at atoms, and where
     /// there is none.
     pub(super) fn nearest(self, mesh: &Mesh, wanted: f64) -> f64 {
-        if judge(mesh, wanted) == NotchEnd::Atoms {
+        if is_among_atoms(mesh, wanted) {
             return wanted;
         }
         let corners = corners(mesh);
@@ -51,27 +51,36 @@ impl WantedEnd {
         // Some bonds are severed, and some are not.
         let inside = places.into_iter().filter(|x| (first + 1.0..last - 2.0).contains(x));
         let found = inside.min_by(|a, b| (a - wanted).abs().total_cmp(&(b - wanted).abs()));
-        found.filter(|&x| judge(mesh, x) != NotchEnd::Atoms).unwrap_or(wanted)
+        found.filter(|&x| !is_among_atoms(mesh, x)).unwrap_or(wanted)
     }
 }
 
-/// Where a cut that ends here, lattice x in spacings, ends among the elements.
-pub(super) fn judge(mesh: &Mesh, end: f64) -> NotchEnd {
+/// Where a cut that ends here, lattice x in spacings, and comes from the left (`way` 1) or from the right (-1), ends among
+/// the elements.
+pub(super) fn judge(mesh: &Mesh, end: f64, way: f64) -> NotchEnd {
+    if is_among_atoms(mesh, end) {
+        return NotchEnd::Atoms;
+    }
+    let is_near = |corner: &f64| {
+        let past = way * (end - corner);
+        -BOND_TO_BOND < past && past <= BOND_TO_BOND
+    };
+    if corners(mesh).iter().any(is_near) {
+        NotchEnd::Corner
+    } else {
+        NotchEnd::WithinEdge
+    }
+}
+
+/// Whether there are atoms on either side of a place, lattice x in spacings.
+fn is_among_atoms(mesh: &Mesh, end: f64) -> bool {
     let is_atom = |row: i32| {
         let columns = mesh.sites.columns(row);
         let column = (end - 0.5 * f64::from(row)).round() as i32;
         let owner = mesh.owner_of([column.clamp(columns.start, columns.end - 1), row]);
         owner.is_none_or(|owner| mesh.elements[owner].is_atom())
     };
-    if plane_rows(mesh).into_iter().all(is_atom) {
-        return NotchEnd::Atoms;
-    }
-    let is_near = |corner: &f64| corner - BOND_TO_BOND < end && end <= corner + BOND_TO_BOND;
-    if corners(mesh).iter().any(is_near) {
-        NotchEnd::Corner
-    } else {
-        NotchEnd::WithinEdge
-    }
+    plane_rows(mesh).into_iter().all(is_atom)
 }
 
 /// The lattice rows below and above the crack plane.
@@ -144,8 +153,10 @@ mod tests {
     }
 
     fn ending(length: f64, end: WantedEnd) -> Crack {
-        let end = Some(end);
-        Crack { length, end }
+        Crack {
+            end: Some(end),
+            ..Crack::of_length(length)
+        }
     }
 
     /// Nearest-neighbour bonds across the crack plane by the place of their middle: whether severed, and their sites.

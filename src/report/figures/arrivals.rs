@@ -23,7 +23,7 @@ fn style(arrival: &Arrival) -> usize {
         Wave::Rayleigh => 5,
     };
     let dash = match arrival.face {
-        Face::Left => 2,
+        Face::Left | Face::Right => 2,
         Face::TopAndBottom => 3,
     };
     palette::style(color, dash)

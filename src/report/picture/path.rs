@@ -91,7 +91,7 @@ fn draw(
     };
     let half = 0.5 * setting.height;
     Canvas::new([0.0..setting.length, -half..half]).draw(figure, &scale, |chart, _| {
-        let notch = [(0.0, 0.0), (setting.crack_length, 0.0)];
+        let notch = setting.notch().map(|x| (x, 0.0));
         chart.draw_series([PathElement::new(notch, INK.stroke_width(5))])?;
         let mark = |bond: &BrokenBond| {
             let [red, green, blue] = scale.colour_of(bond.strain * PERCENT);

@@ -3,7 +3,7 @@
 use super::{At, Check, nanometres, specimen::SpecimenAt};
 use crate::study::{
     case::{
-        Crack, Execution, Loading, MassMatrix, Mode, Probes, Ramp, Run, SnapshotInterval, Snapshots, Summation,
+        Crack, Edge, Execution, Loading, MassMatrix, Mode, Probes, Ramp, Run, SnapshotInterval, Snapshots, Summation,
         TimeStep, Until,
     },
     defaults,
@@ -252,10 +252,15 @@ impl Check<'_> {
         let Some((length, place)) = stops.crack_length else {
             return;
         };
-        if length <= crack.length {
-            let [start, end] = [crack.length, length].map(nanometres);
-            let message =
-                format!("the run would stop at once: the crack is {start} long from the start, and it stops at {end}");
+        let (notch, behind, from) = match crack.edge {
+            Edge::Left | Edge::Right => (crack.length, 0.0, ""),
+            Edge::None { center } => (crack.measured(), center, " from the middle of its notch"),
+        };
+        if length <= notch {
+            let [start, end] = [notch, length].map(nanometres);
+            let message = format!(
+                "the run would stop at once: the crack is {start} long{from} at the start, and it stops at {end}"
+            );
             self.add(
                 Finding::at(place, message)
                     .with(*given, "the crack")
@@ -263,10 +268,10 @@ impl Check<'_> {
             );
         }
         if let Some((whole, given)) = specimen.length
-            && length > whole
+            && length > whole - behind
         {
             let message = format!(
-                "no crack can grow to {} in a specimen of {}",
+                "no crack can grow to {}{from} in a specimen of {}",
                 nanometres(length),
                 nanometres(whole)
             );

@@ -1,8 +1,8 @@
-//! Size of the specimen, and its crack.
+//! Size of the specimen.
 
 use super::{At, Check, about, nanometres};
 use crate::study::{
-    case::{Crack, Edge, Grips, Lattice, NotchEnd, Specimen},
+    case::{Grips, Lattice, Specimen},
     defaults, file,
     finding::{Finding, Place},
     reader::Given,
@@ -107,45 +107,5 @@ impl Check<'_> {
             );
             self.add(Finding::at(place, message).help(format!("make it {} or more", about(10.0 * shortest))));
         }
-    }
-
-    /// The outer `None` is a mistake, the inner one the absence of a crack.
-    pub fn crack(&self, given: &Given<file::Crack>, specimen: &SpecimenAt) -> Option<Option<At<Crack>>> {
-        let (values, place) = match given {
-            Given::Absent => return Some(None),
-            Given::Wrong(_) => return None,
-            Given::Right(values, place) => (values, *place),
-        };
-        let edge = match &values.edge {
-            Given::Absent => Some(defaults::EDGE),
-            Given::Wrong(_) => None,
-            Given::Right(file::Edge::Left, _) => Some(Edge::Left),
-        };
-        let end = match &values.end {
-            Given::Absent => Some(None),
-            Given::Wrong(_) => None,
-            Given::Right(file::NotchEnd::Corner, _) => Some(Some(NotchEnd::Corner)),
-            Given::Right(file::NotchEnd::MidEdge, _) => Some(Some(NotchEnd::MidEdge)),
-        };
-        let (length, at) = self.size(&values.length, place, "crack.length")?;
-        if let Some((whole, given)) = specimen.length
-            && length >= whole
-        {
-            let compared = if length > whole { "longer than" } else { "as long as" };
-            let message = format!(
-                "the crack ({}) is {compared} the specimen ({})",
-                nanometres(length),
-                nanometres(whole)
-            );
-            let help = "shorten the crack or lengthen the specimen";
-            self.add(Finding::at(at, message).with(given, "the specimen").help(help));
-            return None;
-        }
-        let crack = Crack {
-            edge: edge?,
-            length,
-            end: end?,
-        };
-        Some(Some((crack, at)))
     }
 }

@@ -161,6 +161,10 @@ fn h5py_reads_the_series_with_units() {
     assert_eq!(seen["bonds/broken"]["values"], json!([true, false, true]));
     assert_eq!(seen["/"], attributes());
     assert_eq!(seen["setting/crack_row"], json!({"units": "1", "values": -3}));
+    // A crack from the left is told by nothing, as in runs of versions that knew no other.
+    for of_others in ["setting/crack_from_right_edge", "setting/crack_center"] {
+        assert!(seen.get(of_others).is_none(), "{of_others}");
+    }
     assert_eq!(
         seen["setting/spacing"],
         json!({"units": "nm", "values": setting(None).spacing})

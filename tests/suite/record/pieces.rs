@@ -1,13 +1,14 @@
 use std::fs;
 use std::path::Path;
 
+use cgaft::analysis::series::{CrackFrom, Setting};
 use cgaft::record::{
     FIELDS_FILE, RecordError, SERIES_FILE, cut_back, publish_fields, publish_series, read_fields, read_segments,
     read_series, write_frame, write_segment,
 };
 use tempfile::tempdir;
 
-use super::{assert_same_series, frame, mesh, series, setting};
+use super::{assert_same_series, frame, mesh, number, series, setting};
 
 /// Published fields are in single precision: half a unit in its last place, and one for the change of units.
 const SINGLE: f64 = 1.5 * f32::EPSILON as f64;
@@ -112,12 +113,19 @@ fn a_run_published_past_its_checkpoint_is_not_cut_silently() {
 
 #[test]
 fn a_published_series_reads_back_to_the_bit() {
-    for crack_row in [None, Some(-3)] {
+    let [edge, center] = [number(20), number(21)];
+    let sides = [CrackFrom::Left, CrackFrom::Right { edge }, CrackFrom::Inside { center }];
+    let without = [(None, CrackFrom::Left)].into_iter();
+    for (crack_row, crack_from) in without.chain(sides.map(|side| (Some(-3), side))) {
+        let written = Setting {
+            crack_from,
+            ..setting(crack_row)
+        };
         let dir = tempdir().unwrap();
         write_pieces(dir.path());
-        publish_series(dir.path(), "1f", &setting(crack_row)).unwrap();
+        publish_series(dir.path(), "1f", &written).unwrap();
         let (read_setting, read) = read_series(&dir.path().join(SERIES_FILE)).unwrap();
-        assert_eq!(read_setting, setting(crack_row));
+        assert_eq!(read_setting, written);
         assert_same_series(&read, &series(0..10, 4));
     }
 }
