@@ -78,6 +78,11 @@ pub enum SetupError {
         center: f64,
         bonds: [f64; 2],
     },
+    /// Lengths of the notch as laid out and of the crack that ends the run, nm.
+    NotchBeyondEnd {
+        notch: f64,
+        end: f64,
+    },
     /// The crack length that ends the run, and how far a crack can come, nm.
     CrackOutOfReach {
         end: f64,
@@ -210,6 +215,12 @@ impl SetupError {
                 "shorten it or move `center`",
             )
             .with(Subject::Length, "of this length"),
+            Self::NotchBeyondEnd { notch, end } => Refusal::new(
+                Subject::UntilCrackLength,
+                format!("the run would stop at once: as laid out, the notch is {notch:.2} nm long, and it stops at {end} nm"),
+                "stop at a longer crack",
+            )
+            .with(Subject::Crack, "the notch"),
             Self::CrackOutOfReach { end, longest } => Refusal::new(
                 Subject::UntilCrackLength,
                 format!(

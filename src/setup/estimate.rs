@@ -95,6 +95,7 @@ impl Estimator {
         let is_ramped = ramp == case::Ramp::InitialVelocity;
         let longest = longest_step(rate, plan.height_between_grips(), is_ramped, plan.spacing);
         let (specimen, census) = self.lay_out(case, &plan);
+        refuse_a_notch_beyond_the_end(case, &specimen.geometry)?;
         let stability_limit = self.stability_limit(case, &census, &material)?;
         estimate_with(case, &material, specimen, &census, [stability_limit, longest])
     }
@@ -186,6 +187,15 @@ impl Estimator {
             least = least.min(limit);
         }
         Ok(least)
+    }
+}
+
+/// A notch that is moved to its end among the elements may come to be as long as the crack that ends the run.
+fn refuse_a_notch_beyond_the_end(case: &Case, geometry: &Geometry) -> Result<(), SetupError> {
+    let notch = geometry.notch.map(|notch| notch.length.actual);
+    match notch.zip(case.run.until.crack_length) {
+        Some((notch, end)) if notch >= end => Err(SetupError::NotchBeyondEnd { notch, end }),
+        _ => Ok(()),
     }
 }
 
