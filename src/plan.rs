@@ -17,7 +17,7 @@ mod starter;
 mod sweep;
 mod write;
 
-pub use comparison::{COMPARED, Compared, Comparison, Expected, SCALING};
+pub use comparison::{COMPARED, Compared, Comparison, Expected, SCALING, reference};
 pub use difference::explain_difference;
 pub use identity::{CaseId, RunId};
 pub use side_by_side::SideBySide;

@@ -2,10 +2,7 @@
 
 mod agreement;
 mod beware;
-mod branching;
 mod chart;
-mod events;
-mod expected;
 mod figures;
 mod film;
 mod method;
@@ -13,16 +10,14 @@ mod numbers;
 mod page;
 mod palette;
 mod picture;
-mod precision;
 mod resolution;
 mod scaling;
 mod side_by_side;
 mod slab;
-mod specimen;
 mod study;
 mod summary;
+mod table;
 mod tables;
-mod toughness;
 mod units;
 
 pub use film::Film;

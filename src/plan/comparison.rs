@@ -31,6 +31,17 @@ pub struct Expected {
     pub value: f64,
 }
 
+/// The value that comparisons give in a column of a table for the row of a case that has these words, if any does.
+pub fn reference(comparisons: &[Comparison], table: &str, column: &str, case: &str, words: &[&str]) -> Option<f64> {
+    let alike = comparisons.iter().filter(|comparison| comparison.table == table);
+    let mut values = alike.flat_map(|comparison| &comparison.values);
+    let is_it = |expected: &&Expected| {
+        let keys = expected.keys.iter().map(|key| key.1.as_str());
+        expected.case == case && expected.column == column && keys.eq(words.iter().copied())
+    };
+    Some(values.find(is_it)?.value)
+}
+
 /// A table that can be compared, and its columns.
 pub struct Compared {
     pub table: &'static str,

@@ -1,10 +1,11 @@
 //! Where the study agrees with what it is compared with, and where not: computed sentences.
 
+use super::Analysed;
 use super::numbers::{signed_percent, significant};
-use super::tables::Table;
-use super::toughness::{self, Definition};
-use super::{Analysed, branching, events, expected};
-use crate::plan::Comparison;
+use super::table::Table;
+use super::tables::k_ic::{self, Definition};
+use super::tables::{comparison, first_branch, wave_arrival};
+use crate::plan::{self, Comparison};
 
 /// A topic and what is found.
 pub fn notes(cases: &[Analysed], comparisons: &[Comparison], tables: &[Table]) -> Vec<(&'static str, String)> {
@@ -30,7 +31,7 @@ fn counts(comparisons: &[Comparison], tables: &[Table]) -> Option<String> {
     const COUNTED: [&str; 3] = ["nodes", "elements", "represented_atoms"];
     let lines = comparisons
         .iter()
-        .flat_map(|comparison| expected::lines(comparison, tables));
+        .flat_map(|comparison| comparison::lines(comparison, tables));
     let lines: Vec<_> = lines.filter(|line| COUNTED.contains(&line.column)).collect();
     let computed: Vec<_> = lines.iter().filter(|line| line.measured.is_some()).collect();
     let equal = computed
@@ -54,7 +55,7 @@ fn stress_intensity(cases: &[Analysed], comparisons: &[Comparison]) -> Option<St
     let offs = |definition: Definition| -> Vec<f64> {
         let pairs = cases
             .iter()
-            .filter_map(|case| definition.value(case).zip(toughness::reference(case, comparisons)));
+            .filter_map(|case| definition.value(case).zip(k_ic::reference(case, comparisons)));
         pairs.map(|(own, other)| own / other - 1.0).collect()
     };
     let mut found: Vec<(Definition, Vec<f64>)> = Definition::ALL
@@ -87,7 +88,7 @@ const ONE_FACTOR: f64 = 0.02;
 
 /// Whether one factor takes K near the tip to the source's value in all cases, as it does where only the definitions differ.
 fn one_factor(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
-    let factor = |case| Some(toughness::reference(case, comparisons)? / Definition::NearTip.value(case)?);
+    let factor = |case| Some(k_ic::reference(case, comparisons)? / Definition::NearTip.value(case)?);
     let factors: Vec<f64> = cases.iter().filter_map(factor).collect();
     let mean = mean(&factors);
     let is_one = factors.len() > 2 && factors.iter().all(|factor| (factor / mean - 1.0).abs() < ONE_FACTOR);
@@ -106,7 +107,7 @@ fn first_branch(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String
     beside_the_pictures(
         cases,
         comparisons,
-        branching::after_start,
+        first_branch::after_start,
         "no branch up to the end of the run",
     )
 }
@@ -116,7 +117,7 @@ fn leaving_the_plane(cases: &[Analysed], comparisons: &[Comparison]) -> Option<S
     beside_the_pictures(
         cases,
         comparisons,
-        events::leaves_after_start,
+        first_branch::leaves_after_start,
         "in its plane up to the end of the run",
     )
 }
@@ -129,7 +130,7 @@ fn beside_the_pictures(
     never: &str,
 ) -> Option<String> {
     let line = |case: &Analysed| {
-        let [Some(from), Some(to)] = branching::reference(case, comparisons) else {
+        let [Some(from), Some(to)] = first_branch::reference(case, comparisons) else {
             return None;
         };
         case.findings.initiation?;
@@ -153,8 +154,8 @@ fn beside_the_pictures(
 
 fn waves(cases: &[Analysed]) -> Option<String> {
     let line = |case: &Analysed| {
-        branching::after_start(case)?;
-        let waves = branching::waves_before(case);
+        first_branch::after_start(case)?;
+        let waves = first_branch::waves_before(case);
         Some(match waves.is_empty() {
             true => format!("{}: none", case.name()),
             false => format!("{}: {}", case.name(), waves.join(", ")),
@@ -187,8 +188,9 @@ fn arrivals(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
     let mut offs = [const { Vec::new() }; 3];
     for case in cases {
         for arrival in &case.findings.arrivals {
-            let keys = [super::tables::wave_name(arrival), super::tables::path_name(arrival)];
-            let Some(reference) = expected::value(comparisons, "wave_arrival", case.name(), &keys) else {
+            let keys = [wave_arrival::wave_name(arrival), wave_arrival::path_name(arrival)];
+            let Some(reference) = plan::reference(comparisons, "wave_arrival", "reference_ps", case.name(), &keys)
+            else {
                 continue;
             };
             offs[0].push(arrival.predicted / reference - 1.0);

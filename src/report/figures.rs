@@ -4,15 +4,16 @@ mod arrivals;
 
 use super::Analysed;
 use super::chart::{Chart, Content, Curve};
+use super::numbers;
+use super::tables::speed_against_error;
 use super::units::{GIGAPASCAL, PERCENT};
-use super::{numbers, precision};
 use crate::analysis::series::Probe;
 use crate::analysis::speed::Speed;
 use crate::plan::Comparison;
 
 /// All charts that have something to show.
 pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
-    let mut charts = precision::charts(cases, comparisons);
+    let mut charts = speed_against_error::charts(cases, comparisons);
     charts.extend([
         stress_strain(cases),
         temperature(cases),

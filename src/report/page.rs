@@ -4,8 +4,9 @@ use super::chart::{Chart, Drawing};
 use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::summary::{self, Group, Row};
-use super::tables::Table;
-use super::{Analysed, ReportError, Study, agreement, expected, method, numbers, scaling, specimen};
+use super::table::Table;
+use super::tables::{comparison, specimen};
+use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling};
 use crate::plan::Comparison;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment, Value, context};
@@ -91,7 +92,7 @@ impl Page<'_> {
 
     /// What comes from elsewhere beside what the cases say.
     fn comparison(&self, comparison: &Comparison) -> Value {
-        let lines = expected::lines(comparison, self.tables);
+        let lines = comparison::lines(comparison, self.tables);
         context! {
             name => &comparison.name,
             file => &comparison.file,

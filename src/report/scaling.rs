@@ -9,7 +9,7 @@ pub use words::{notes, verdict};
 use polars::prelude::Column;
 
 use super::numbers::{ABSENT, count, significant};
-use super::tables::Rows;
+use super::table::Rows;
 use super::{Analysed, Study};
 use crate::analysis::scaling::{OneProcessor, Times, predicted};
 use crate::domain::MessageCost;

@@ -7,7 +7,7 @@ use polars::prelude::Column;
 
 use super::numbers::ABSENT;
 use super::summary::{self, Row};
-use super::tables::Rows;
+use super::table::Rows;
 use super::{Analysed, CaseResult, Study};
 use crate::plan::SideBySide;
 use quantity::Quantity;

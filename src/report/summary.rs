@@ -1,7 +1,7 @@
 //! The cases side by side: what differs, what it costs, what came out, how far from the finest.
 
 use super::numbers::{ABSENT, count, duration, signed_percent, significant};
-use super::specimen::are_one_computation;
+use super::tables::specimen::are_one_computation;
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
 use super::{Analysed, CaseResult, beware};
 use crate::analysis::stress_intensity::{FromJ, NearTip};

@@ -1,5 +1,7 @@
 //! House rules that a compiler does not check.
 
+mod circles;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 

@@ -1,10 +1,11 @@
 //! Crack speed over time with what happens to it: one chart a case whose crack starts.
 
-use super::super::tables::{path_name, wave_name};
-use super::super::{Analysed, branching, events};
 use crate::analysis::waves::{Arrival, Face, Wave};
+use crate::report::Analysed;
 use crate::report::chart::{Chart, Content, Curve};
 use crate::report::palette;
+use crate::report::tables::first_branch::{self, at_running_tip};
+use crate::report::tables::wave_arrival::{path_name, wave_name};
 
 /// Time before the start that is shown, and after the last event, as shares of the time of that.
 const BEFORE: f64 = 0.1;
@@ -38,11 +39,11 @@ pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
 fn chart(index: usize, case: &Analysed) -> Option<Chart> {
     let start = case.findings.initiation?.time;
     let marks = [
-        (LEAVES_PLANE, "leaves the plane", events::leaves_after_start(case)),
-        (BRANCH, "first branch", branching::after_start(case)),
+        (LEAVES_PLANE, "leaves the plane", first_branch::leaves_after_start(case)),
+        (BRANCH, "first branch", first_branch::after_start(case)),
     ];
     let rayleigh = case.rayleigh_speed()?;
-    let mut arrivals: Vec<(&Arrival, f64)> = branching::at_running_tip(case).collect();
+    let mut arrivals: Vec<(&Arrival, f64)> = at_running_tip(case).collect();
     arrivals.sort_by(|a, b| a.1.total_cmp(&b.1));
     let times = arrivals.iter().map(|arrival| arrival.1);
     let last = times.chain(marks.iter().filter_map(|mark| mark.2)).reduce(f64::max)?;

@@ -1,10 +1,10 @@
 //! What is told of cases that stand side by side.
 
 use crate::report::Analysed;
-use crate::report::branching;
-use crate::report::expected::shown;
 use crate::report::numbers::{signed_percent, significant};
-use crate::report::toughness::Definition;
+use crate::report::tables::comparison::shown;
+use crate::report::tables::first_branch;
+use crate::report::tables::k_ic::Definition;
 use crate::report::units::{MEGAJOULE_A_CUBIC_METRE, PERCENT};
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -98,7 +98,7 @@ impl Quantity {
             Self::InitiationTime => Some(case.findings.initiation?.time),
             Self::StressIntensity(definition) => definition.value(case),
             Self::PeakSpeed => case.peak_speed_over_rayleigh(),
-            Self::BranchTime => branching::after_start(case),
+            Self::BranchTime => first_branch::after_start(case),
             Self::BranchStrain => Some(branch()?.strain),
             Self::BranchAngle => Some(branch()?.angle),
             Self::WorkDensity => Some(case.result.series.work_density()? * MEGAJOULE_A_CUBIC_METRE),

@@ -2,13 +2,13 @@
 
 use polars::prelude::Column;
 
-use super::tables::Rows;
-use super::units::MEGAPASCAL_ROOT_METRE;
-use super::{Analysed, expected};
 use crate::analysis::series::{Probe, Setting};
 use crate::analysis::stress_intensity::Refusal;
 use crate::analysis::stress_intensity::handbook::{self, Grips};
-use crate::plan::Comparison;
+use crate::plan::{self, Comparison};
+use crate::report::Analysed;
+use crate::report::table::Rows;
+use crate::report::units::MEGAPASCAL_ROOT_METRE;
 
 /// One way to say what K is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -116,7 +116,7 @@ fn grips(case: &Analysed) -> Option<Grips> {
 
 /// What the source of a comparison says, MPa sqrt(m).
 pub fn reference(case: &Analysed, comparisons: &[Comparison]) -> Option<f64> {
-    expected::value(comparisons, "k_ic", case.name(), &[])
+    plan::reference(comparisons, "k_ic", "k_ic_reference_mpa_sqrt_m", case.name(), &[])
 }
 
 pub fn columns(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Column> {

@@ -2,11 +2,11 @@
 
 use polars::prelude::Column;
 
-use super::numbers::significant;
-use super::study::Specimen;
-use super::tables::Rows;
-use super::units::{METRE_PER_SECOND, PERCENT};
-use super::{Analysed, CaseResult};
+use crate::report::numbers::significant;
+use crate::report::study::Specimen;
+use crate::report::table::Rows;
+use crate::report::units::{METRE_PER_SECOND, PERCENT};
+use crate::report::{Analysed, CaseResult};
 
 /// Differences from what was asked for beyond this share are told.
 const NOTABLE: f64 = 0.01;

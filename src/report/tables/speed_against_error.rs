@@ -1,10 +1,15 @@
 //! Speed against error: what every case costs beside how far it is from the finest of the same specimen.
 
-use super::chart::scatter::{Mark, Point, Scatter};
-use super::chart::{Chart, Content};
-use super::units::PERCENT;
-use super::{Analysed, Difference, summary};
+use polars::prelude::Column;
+
 use crate::plan::Comparison;
+use crate::report::chart::scatter::{Mark, Point, Scatter};
+use crate::report::chart::{Chart, Content};
+use crate::report::table::Rows;
+use crate::report::units::PERCENT;
+use crate::report::{Analysed, Difference, summary};
+
+const MEBIBYTE: f64 = 1_048_576.0;
 
 /// Fewer cases than this besides the reference are no study of economies; the comparison side by side says it all.
 const FEWEST: usize = 4;
@@ -194,4 +199,37 @@ fn marks(rows: &[Row], comparisons: &[Comparison]) -> Vec<Mark> {
         }));
     }
     marks
+}
+
+/// Errors are relative.
+pub fn columns(rows: Vec<Row>) -> Vec<Column> {
+    let rows = Rows(rows);
+    let mut columns = vec![
+        rows.count("number", |row| Some(row.number)),
+        rows.text("case", |row| row.case.name()),
+        rows.text("reference", |row| row.reference.name()),
+        rows.number(COST, |row| row.cost),
+        rows.count("nodes", |row| {
+            row.case.result.setting.as_ref().map(|setting| setting.nodes)
+        }),
+        rows.number("peak_memory_mib", |row| {
+            row.case.result.manifest.peak_memory.map(|bytes| bytes / MEBIBYTE)
+        }),
+    ];
+    for quantity in Quantity::ALL {
+        columns.push(rows.number(quantity.column(), |row| row.error(quantity)));
+    }
+    let best: Vec<Option<String>> = rows
+        .0
+        .iter()
+        .map(|row| {
+            let best = Quantity::ALL
+                .into_iter()
+                .filter(|&quantity| row.is_best(&rows.0, quantity));
+            let names: Vec<&str> = best.map(Quantity::column).collect();
+            (!names.is_empty()).then(|| names.join(" "))
+        })
+        .collect();
+    columns.push(Column::new("unbeaten_in".into(), best));
+    columns
 }

@@ -2,10 +2,12 @@
 
 use polars::prelude::Column;
 
-use super::tables::{Rows, path_name, wave_name};
-use super::{Analysed, events};
+use super::wave_arrival::{path_name, wave_name};
+use crate::analysis::history::LeavesPlane;
 use crate::analysis::waves::Arrival;
-use crate::plan::Comparison;
+use crate::plan::{self, Comparison};
+use crate::report::Analysed;
+use crate::report::table::Rows;
 
 /// Time of the first branch after the crack has started, ps.
 pub fn after_start(case: &Analysed) -> Option<f64> {
@@ -14,14 +16,8 @@ pub fn after_start(case: &Analysed) -> Option<f64> {
 
 /// Between which times the source of a comparison saw it, ps after the start.
 pub fn reference(case: &Analysed, comparisons: &[Comparison]) -> [Option<f64>; 2] {
-    ["reference_from_ps", "reference_to_ps"].map(|column| {
-        let all = comparisons
-            .iter()
-            .filter(|comparison| comparison.table == "first_branch");
-        let mut values = all.flat_map(|comparison| &comparison.values);
-        let found = values.find(|expected| expected.case == case.name() && expected.column == column)?;
-        Some(found.value)
-    })
+    ["reference_from_ps", "reference_to_ps"]
+        .map(|column| plan::reference(comparisons, "first_branch", column, case.name(), &[]))
 }
 
 /// The waves that come back to the running tip while the run lasts, and when, ps after the start.
@@ -60,6 +56,30 @@ pub fn columns(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Column> {
         rows.number("reference_from_ps", |case| reference(case, comparisons)[0]),
         rows.number("reference_to_ps", |case| reference(case, comparisons)[1]),
     ];
-    columns.extend(events::leaving_columns(&rows));
+    columns.extend(leaving_columns(&rows));
     columns
+}
+
+/// When the crack leaves its plane.
+fn leaving_columns(rows: &Rows<&Analysed>) -> Vec<Column> {
+    let left = |case: &&Analysed| case.findings.leaves_plane;
+    vec![
+        rows.number("leaves_plane_time_ps", |case| left(case).map(|left| left.time)),
+        rows.number("leaves_plane_after_start_ps", |case| leaves_after_start(case)),
+        rows.number("leaves_plane_strain", |case| left(case).map(|left| left.strain)),
+        rows.number("leaves_plane_x_nm", |case| left(case).map(|left| left.x)),
+        rows.number("leaves_plane_y_nm", |case| left(case).map(|left| left.y)),
+        rows.number("first_off_plane_after_start_ps", |case| {
+            after(case, |left| left.first_off_time)
+        }),
+    ]
+}
+
+/// Time after the start of the crack at which it leaves its plane, ps.
+pub fn leaves_after_start(case: &Analysed) -> Option<f64> {
+    after(case, |left| left.time)
+}
+
+fn after(case: &Analysed, time: fn(LeavesPlane) -> f64) -> Option<f64> {
+    Some(time(case.findings.leaves_plane?) - case.findings.initiation?.time)
 }

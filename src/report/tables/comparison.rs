@@ -2,10 +2,10 @@
 
 use polars::prelude::Column;
 
-use super::numbers::{ABSENT, count, signed_percent, significant};
-use super::tables::{Rows, Table};
-use super::toughness::Definition;
+use super::k_ic::Definition;
 use crate::plan::{Comparison, Expected};
+use crate::report::numbers::{ABSENT, count, signed_percent, significant};
+use crate::report::table::{Rows, Table};
 
 /// Digits of a value on the page.
 const SHOWN_DIGITS: usize = 4;
@@ -104,16 +104,4 @@ pub fn columns(comparisons: &[Comparison], tables: &[Table]) -> Vec<Column> {
         rows.number("relative_difference", Line::difference),
         rows.text("source", |line| line.source),
     ]
-}
-
-/// What a comparison says of a row of a table, if anything does.
-pub fn value(comparisons: &[Comparison], table: &str, case: &str, keys: &[&str]) -> Option<f64> {
-    let mut all = comparisons
-        .iter()
-        .filter(|comparison| comparison.table == table)
-        .flat_map(|comparison| &comparison.values);
-    let found = all.find(|expected| {
-        expected.case == case && expected.keys.iter().map(|key| key.1.as_str()).eq(keys.iter().copied())
-    })?;
-    Some(found.value)
 }
