@@ -79,7 +79,8 @@ impl Frame {
 
     /// A place in this frame, nm from the origin and the crack plane, in the specimen, nm from its left edge.
     pub fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [self.origin + self.direction * x, self.direction * y]
+        // No negative zero.
+        [self.origin + self.direction * x, 0.0 + self.direction * y]
     }
 
     /// The reverse.

@@ -159,8 +159,11 @@ fn assert_alike(found: [&Findings; 2], spacing: f64, turned: impl Fn(Tip) -> Tip
         let near = (a.x - b.x).hypot(a.y - b.y) < TIP_SPACINGS * spacing;
         assert!(near, "{label}, probe {probe}: {a:?} {b:?}");
     }
-    let peaks = found.map(|found| found.peak_speed().expect("it runs"));
-    assert!((peaks[0] / peaks[1] - 1.0).abs() < SPEED_SHARE, "{label}: {peaks:?}");
+    // A crack in large elements may have crossed so small a slab before a window is full.
+    match found.map(Findings::peak_speed) {
+        [Some(a), Some(b)] => assert!((a / b - 1.0).abs() < SPEED_SHARE, "{label}: speed {a} {b}"),
+        [a, b] => assert_eq!(a, b, "{label}: speed"),
+    }
 }
 
 #[test]
@@ -180,7 +183,8 @@ fn a_crack_from_the_right_runs_as_one_from_the_left_after_half_a_turn() {
         let start = left.2.initiation.unwrap().probe - 1;
         for (a, b) in left.1.probes[..start].iter().zip(&right.1.probes) {
             for (a, b) in a.j_integral.into_iter().zip(b.j_integral) {
-                assert!((a - b).abs() <= AT_START * a.abs().max(1e-3), "{label}: J {a} {b}");
+                let is_alike = a.is_nan() && b.is_nan() || (a - b).abs() <= AT_START * a.abs().max(1e-3);
+                assert!(is_alike, "{label}: J {a} {b}");
             }
         }
         let k = [&left.2, &right.2].map(|found| found.near_tip.map(|fit| fit.value));
