@@ -3,6 +3,7 @@
 pub mod analysis;
 pub mod cli;
 pub mod domain;
+pub mod durable;
 pub mod executor;
 pub mod export;
 pub mod forces;

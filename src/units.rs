@@ -2,6 +2,7 @@
 //!
 //! Internal units are nm, ps, eV, u and K, so a rate is 1/ps, a velocity nm/ps and a stress eV/nm^3.
 
+pub mod amounts;
 mod decimal;
 mod symbols;
 

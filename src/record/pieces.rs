@@ -4,8 +4,9 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use super::aside::{self, ASIDE};
+use super::aside::ASIDE;
 use super::{CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE};
+use crate::durable;
 
 /// Everything in a run's folder that is not there to stay, in order of steps.
 #[derive(Default)]
@@ -75,7 +76,7 @@ pub(super) fn remove<'a>(dir: &Path, paths: impl IntoIterator<Item = &'a PathBuf
             _ => {}
         }
     }
-    aside::sync_folder(dir).map_err(|cause| RecordError::cannot_write(dir, cause))
+    durable::sync(dir).map_err(|cause| RecordError::cannot_write(dir, cause))
 }
 
 fn segment_steps(name: &str) -> Option<(u64, u64)> {

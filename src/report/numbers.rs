@@ -42,16 +42,6 @@ pub fn signed_percent(share: f64) -> String {
     }
 }
 
-/// Seconds as `0.84 s`, `3 min 20 s`, `2 h 05 min`.
-pub fn duration(seconds: f64) -> String {
-    let whole = seconds.round() as u64;
-    match whole {
-        0..60 => format!("{} s", significant(seconds, 3)),
-        60..3600 => format!("{} min {:02} s", whole / 60, whole % 60),
-        _ => format!("{} h {:02} min", whole / 3600, whole % 3600 / 60),
-    }
-}
-
 /// The nearest number with so many significant decimal digits.
 pub fn round_significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1))
@@ -112,13 +102,6 @@ mod tests {
         assert_eq!(significant(-2.5e-7, 2), "−2.5 × 10⁻⁷");
         assert_eq!(significant(9.996, 3), "10.0");
         assert_eq!(significant(f64::NAN, 3), ABSENT);
-    }
-
-    #[test]
-    fn durations_are_given_in_the_largest_two_units() {
-        assert_eq!(duration(0.8412), "0.841 s");
-        assert_eq!(duration(200.2), "3 min 20 s");
-        assert_eq!(duration(7500.0), "2 h 05 min");
     }
 
     #[test]

@@ -8,6 +8,7 @@ use super::table::Table;
 use super::tables::{comparison, specimen};
 use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling};
 use crate::plan::Comparison;
+use crate::units::amounts::duration;
 use minijinja::syntax::SyntaxConfig;
 use minijinja::{AutoEscape, Environment, Value, context};
 
@@ -174,7 +175,7 @@ fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
         ("threads a rank", manifest.threads.map(|threads| threads.to_string())),
         ("started", manifest.started.clone()),
         ("ended", manifest.ended.clone()),
-        ("wall time", manifest.wall_seconds.map(numbers::duration)),
+        ("wall time", manifest.wall_seconds.map(duration)),
         (
             "core-seconds",
             case.core_seconds().map(|seconds| numbers::significant(seconds, 4)),

@@ -1,10 +1,11 @@
 //! The cases side by side: what differs, what it costs, what came out, how far from the finest.
 
-use super::numbers::{ABSENT, count, duration, signed_percent, significant};
+use super::numbers::{ABSENT, count, signed_percent, significant};
 use super::tables::specimen::are_one_computation;
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
 use super::{Analysed, CaseResult, beware};
 use crate::analysis::stress_intensity::{FromJ, NearTip};
+use crate::units::amounts::{bytes, duration};
 
 /// More cases than this are left to the table.
 const MOST_NAMED: usize = 4;
@@ -72,10 +73,8 @@ pub fn done(cases: &[Analysed]) -> String {
 fn effort(cases: &[Analysed]) -> Option<String> {
     let seconds = cases.iter().filter_map(Analysed::core_seconds).reduce(|a, b| a + b);
     let memory = cases.iter().filter_map(|case| case.result.manifest.peak_memory);
-    let most = memory.max_by(f64::total_cmp).map(|bytes| significant(bytes * 1e-6, 3));
-    let memory = most.map_or(String::new(), |megabytes| {
-        format!(", and {megabytes} MB of memory at most")
-    });
+    let most = memory.max_by(f64::total_cmp).map(|most| bytes(most as u64));
+    let memory = most.map_or(String::new(), |most| format!(", and {most} of memory at most"));
     Some(format!("They took {} of a core in all{memory}.", duration(seconds?)))
 }
 

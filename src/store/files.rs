@@ -1,13 +1,14 @@
 //! Writing that survives a crash: a file is either old or new, never half.
 
 use std::fs::{self, File, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::Path;
 
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::StoreError;
+use crate::durable;
 
 /// End of the name of a file that is still being written.
 pub const ASIDE: &str = ".new";
@@ -23,13 +24,9 @@ pub fn write_json(path: &Path, value: &impl Serialize) -> Result<(), StoreError>
 pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
     // Two processes may write the same file at once: each has its own aside, and the last one wins.
     let aside = path.with_extension(format!("{}{ASIDE}", std::process::id()));
-    let write = || {
-        let mut file = File::create(&aside)?;
-        file.write_all(bytes)?;
-        file.sync_all()?;
-        fs::rename(&aside, path)
-    };
-    write().map_err(StoreError::write(path))
+    fs::write(&aside, bytes)
+        .and_then(|()| durable::put_in_place(&aside, path))
+        .map_err(StoreError::write(path))
 }
 
 /// The value in a JSON file; the error is told in words.
@@ -72,9 +69,7 @@ pub fn is_locked(path: &Path) -> bool {
 
 /// Flushes a file or the entries of a folder to the disk.
 pub fn sync(path: &Path) -> Result<(), StoreError> {
-    File::open(path)
-        .and_then(|file| file.sync_all())
-        .map_err(StoreError::write(path))
+    durable::sync(path).map_err(StoreError::write(path))
 }
 
 /// Removes what a killed process was just writing in place of `name`.
