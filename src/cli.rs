@@ -24,6 +24,7 @@ mod specimen;
 mod status;
 mod survey;
 mod terminal;
+mod warnings;
 
 pub use error::CliError;
 

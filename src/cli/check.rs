@@ -5,7 +5,7 @@ use serde_json::json;
 use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
-use super::{CliError, format, room, specimen};
+use super::{CliError, format, room, specimen, warnings};
 use crate::setup::{Estimate, cautions};
 
 /// `cgaft study check FILE`
@@ -24,18 +24,18 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         .iter()
         .zip(estimates.iter().map(|estimate| &estimate.specimen))
         .collect();
-    let of_sizes = sized.iter().filter_map(|(name, estimate)| warning(name, estimate));
+    let of_steps = sized
+        .iter()
+        .filter_map(|&(name, estimate)| Some((name, warning(estimate)?)));
     let of_methods = plan.cases.iter().flat_map(|planned| {
         let cautions = cautions(&planned.case).into_iter();
-        cautions.map(|caution| format!("warning: {}: {caution}", planned.name))
+        cautions.map(|caution| (planned.name.as_str(), caution))
     });
+    let of_runs = warnings::once(of_steps.chain(of_methods));
     let needed = estimates.iter().map(|estimate| estimate.disk_bytes).sum();
     let of_disk = room::warning(Path::new("results"), needed);
-    let warnings: Vec<String> = of_sizes
-        .chain(specimen::warnings(&laid))
-        .chain(of_methods)
-        .chain(of_disk)
-        .collect();
+    let mut warnings = specimen::warnings(&laid);
+    warnings.extend(of_runs.into_iter().chain(of_disk));
     let json = json!({ "study": plan.study, "cases": cases, "warnings": warnings });
     let terminal = Terminal {
         quiet: false,
@@ -83,11 +83,11 @@ const HEAD: [&str; 9] = [
 /// Share of the limit of the crystal at rest above which a breaking one is likely to undercut the time step.
 const RISKY: f64 = 0.9;
 
-fn warning(name: &str, estimate: &Estimate) -> Option<String> {
+fn warning(estimate: &Estimate) -> Option<String> {
     let share = estimate.time_step / estimate.stability_limit;
     (share > RISKY).then(|| {
         format!(
-            "warning: {name}: the time step is {:.0} % of the limit of the crystal at rest; what collides behind a crack is \
+            "the time step is {:.0} % of the limit of the crystal at rest; what collides behind a crack is \
              stiffer, and the run may end there: `time-step: auto` takes half of it",
             100.0 * share
         )

@@ -154,7 +154,18 @@ fn mpi() -> Finding {
 
 fn slurm() -> Finding {
     let advice = "not found; cases run on this machine, and `--on slurm` needs a machine with sbatch";
-    first_line("sbatch", &["--version"]).map_or_else(|| optional("Slurm", advice), |line| found("Slurm", line))
+    let Some(version) = first_line("sbatch", &["--version"]) else {
+        return optional("Slurm", advice);
+    };
+    match output_of("squeue", &["--noheader"]) {
+        Some(_) => found("Slurm", version),
+        None => {
+            let words = format!(
+                "{version}, but no controller answers `squeue`: cases run on this machine; ask who runs the cluster"
+            );
+            optional("Slurm", &words)
+        }
+    }
 }
 
 /// Only to check that others can read the files; the project's own environment comes first.

@@ -13,6 +13,9 @@ use crate::store::State;
 pub struct Arguments {
     #[command(flatten)]
     pub of: OfResults,
+    /// Show this case only; may be given several times
+    #[arg(long, value_name = "CASE")]
+    pub only: Vec<String>,
     #[command(flatten)]
     pub crew: CrewChoice,
     /// Where the cases would be computed
@@ -23,7 +26,10 @@ pub struct Arguments {
 /// `cgaft study plan FILE`: every case, and the command or the script that computes it.
 pub fn plan(arguments: &Arguments) -> Result<u8, CliError> {
     let OfResults { common, place } = arguments.of.clone();
-    show(&RunArguments::planning(common, place, arguments.crew, arguments.on))
+    show(&RunArguments {
+        only: arguments.only.clone(),
+        ..RunArguments::planning(common, place, arguments.crew, arguments.on)
+    })
 }
 
 /// What `run` would do with these arguments; changes nothing.

@@ -13,6 +13,7 @@ use crate::executor::share::{Crew, Demand, Share, share};
 use crate::plan::{self as planning, PlannedCase};
 use crate::setup::Estimate;
 use crate::store::State;
+use crate::study::case::{MOST_RANKS, MOST_THREADS};
 
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -49,11 +50,11 @@ pub struct CrewChoice {
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
     /// MPI ranks a case [default: what the study says, else 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_RANKS)))]
     pub ranks: Option<u32>,
     /// Threads a rank [default: the cores of this machine, shared between jobs and ranks; on Slurm, what the study says,
     /// else 1]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
 }
 

@@ -22,6 +22,7 @@ use crate::solver::{self, Ending};
 use crate::store::{self, FolderLock, Outcome, StoreError};
 use crate::study::StudyError;
 use crate::study::case::Case;
+use crate::study::case::MOST_THREADS;
 
 /// Compute one case of a study.
 ///
@@ -38,7 +39,7 @@ struct Arguments {
     #[arg(long, value_name = "DIR")]
     into: PathBuf,
     /// Threads [default: what the case says, else the cores of this machine]
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     threads: Option<u32>,
     /// How to tell progress [default: a bar on a terminal, else lines]
     #[arg(long, value_enum)]

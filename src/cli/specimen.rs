@@ -2,7 +2,7 @@
 
 use serde_json::{Value, json};
 
-use super::format;
+use super::{format, warnings};
 use crate::mesh::cut::NotchEnd;
 use crate::plan::PlannedCase;
 use crate::setup::{Leftovers, Size, Specimen};
@@ -20,7 +20,8 @@ pub const HEAD: [&str; 9] = [
 ];
 
 /// What the heads of the columns have no room for.
-pub const NOTES: &str = "as laid out of whole elements, in nm, and in brackets what was asked for where that is another
+pub const NOTES: &str =
+    "lengths in nm as laid out of whole elements; in brackets what was asked for, where that differs
 left over: share of the atoms in smaller elements than asked for, because no larger one fits there
 ";
 
@@ -29,9 +30,6 @@ const NOTABLE: f64 = 0.01;
 
 /// More of the atoms in smaller elements than asked for make it another mesh than the one asked for.
 const MANY_LEFTOVERS: f64 = 0.1;
-
-/// Cases that are told together by name; the others are counted.
-const MOST_NAMED: usize = 4;
 
 /// A case and its specimen.
 pub type Laid<'a> = (&'a PlannedCase, &'a Specimen);
@@ -87,26 +85,44 @@ pub fn end(end: NotchEnd) -> &'static str {
     }
 }
 
-/// What is to be known of specimens that are not what was asked for. What several cases have in common is told once.
+/// What is to be known of specimens that are not what was asked for.
 pub fn warnings(cases: &[Laid]) -> Vec<String> {
-    let mut told: Vec<(String, Vec<&str>)> = Vec::new();
-    for (planned, specimen) in cases {
-        let own = [
+    let own = cases.iter().flat_map(|(planned, specimen)| {
+        let texts = [
             sizes_warning(specimen),
             leftover_warning(specimen),
             absent_warning(planned, specimen),
         ];
-        for text in own.into_iter().flatten() {
-            match told.iter_mut().find(|(known, _)| *known == text) {
-                Some((_, names)) => names.push(&planned.name),
-                None => told.push((text, vec![&planned.name])),
-            }
-        }
-    }
-    let told = told
-        .iter()
-        .map(|(text, names)| format!("warning: {}: {text}", listed(names)));
-    told.chain(one_computation(cases)).collect()
+        texts.into_iter().flatten().map(|text| (planned.name.as_str(), text))
+    });
+    let own = warnings::once(own);
+    let all = own.into_iter().chain(unlike_specimens(cases));
+    all.chain(one_computation(cases)).collect()
+}
+
+/// Cases that ask for one specimen and are laid out as several, because their elements are of unlike size.
+fn unlike_specimens(cases: &[Laid]) -> Option<String> {
+    let sizes = |(_, specimen): &Laid| (specimen.geometry.length, specimen.geometry.width);
+    let is_alike = |case: &&Laid, other: &&Laid| {
+        let [(length, width), (other_length, other_width)] = [sizes(case), sizes(other)];
+        length.asked == other_length.asked && width.asked == other_width.asked
+    };
+    cases.iter().find_map(|first| {
+        let alike: Vec<&Laid> = cases.iter().filter(|case| is_alike(&first, case)).collect();
+        let heights = alike.iter().map(|(_, specimen)| specimen.geometry.height.actual);
+        let least = heights.clone().fold(f64::INFINITY, f64::min);
+        let most = heights.fold(0.0, f64::max);
+        let names: Vec<&str> = alike.iter().map(|(planned, _)| planned.name.as_str()).collect();
+        (most > (1.0 + NOTABLE) * least).then(|| {
+            format!(
+                "warning: {}: one specimen asked for, {} to {} nm high between the grips as laid out; with one \
+                 `specimen.block` that all their elements fit, they are alike",
+                warnings::listed(&names),
+                digits(least),
+                digits(most)
+            )
+        })
+    })
 }
 
 /// The cases that are computed on one mesh with one notch and are loaded alike.
@@ -126,7 +142,7 @@ pub fn one_computation(cases: &[Laid]) -> Vec<String> {
             format!(
                 "warning: {}: one computation under several names; mesh, notch and loading are the same, and nothing can \
                  differ between them",
-                listed(names)
+                warnings::listed(names)
             )
         })
         .collect()
@@ -202,14 +218,6 @@ fn digits(value: f64) -> String {
     }
 }
 
-fn listed(names: &[&str]) -> String {
-    let (named, others) = names.split_at(names.len().min(MOST_NAMED));
-    match others.len() {
-        0 => named.join(", "),
-        more => format!("{} and {} more", named.join(", "), more),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -220,11 +228,5 @@ mod tests {
         assert_eq!(digits(115.0), "115");
         assert_eq!(digits(1127.4), "1127");
         assert_eq!(digits(0.2277), "0.2277");
-    }
-
-    #[test]
-    fn many_cases_are_told_with_the_names_of_a_few() {
-        assert_eq!(listed(&["a", "b"]), "a, b");
-        assert_eq!(listed(&["a", "b", "c", "d", "e", "f"]), "a, b, c, d and 2 more");
     }
 }

@@ -86,6 +86,13 @@ pub const COMPARED: [Compared; 6] = [
             "peak_speed_over_c_r",
             "first_branch_time_ps",
             "first_branch_strain",
+            "first_bond_strain",
+            "first_bond_time_ps",
+            "speed_share",
+            "joins",
+            "leaves_plane_time_ps",
+            "leaves_plane_strain",
+            "parted_elsewhere_strain",
         ],
     },
     Compared {

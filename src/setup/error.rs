@@ -2,6 +2,7 @@
 
 use crate::solver::SolverError;
 use crate::study::{Refusal, Subject};
+use crate::units::amounts;
 
 /// Sound as a text, but not as physics.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -88,12 +89,12 @@ pub enum SetupError {
         end: f64,
         longest: f64,
     },
-    /// GiB needed, and free on this machine.
+    /// Bytes needed, and free on this machine.
     TooLarge {
         sites: u64,
         ranks: u32,
-        needed: f64,
-        present: f64,
+        needed: u64,
+        present: u64,
     },
     Solver(#[from] SolverError),
 }
@@ -243,8 +244,9 @@ impl SetupError {
                 Refusal::new(
                     Subject::Length,
                     format!(
-                        "a mesh of {sites} sites{each} needs about {needed:.1} GiB and this machine has {present:.1} GiB \
-                         free"
+                        "a mesh of {sites} sites{each} needs about {} and this machine has {} free",
+                        amounts::bytes(*needed),
+                        amounts::bytes(*present)
                     ),
                     format!("{fewer}make the specimen smaller, or use larger elements"),
                 )

@@ -301,16 +301,15 @@ fn ranks(case: &Case) -> u32 {
 /// Refuses a mesh that so many ranks on this machine, each of which holds the whole, would not fit into what is free of its
 /// memory, before it is made.
 pub fn refuse_what_does_not_fit(plan: &Plan, ranks: u32) -> Result<(), SetupError> {
-    const GIBIBYTE: f64 = 1_073_741_824.0;
     let census = Census::by_area(plan);
     let sites = census.sites;
-    let needed = f64::from(ranks) * census.memory() as f64 / GIBIBYTE;
-    match memory::free().map(|bytes| bytes as f64) {
-        Some(present) if needed > present / GIBIBYTE => Err(SetupError::TooLarge {
+    let needed = u64::from(ranks).saturating_mul(census.memory());
+    match memory::free() {
+        Some(present) if needed > present => Err(SetupError::TooLarge {
             sites,
             ranks,
             needed,
-            present: present / GIBIBYTE,
+            present,
         }),
         _ => Ok(()),
     }

@@ -257,6 +257,10 @@ pub enum SnapshotInterval {
     Time(f64),
 }
 
+/// More threads a process, and more processes, than any machine has.
+pub const MOST_THREADS: u32 = 4096;
+pub const MOST_RANKS: u32 = 1 << 24;
+
 /// How a case is carried out. Never part of its identity: results do not depend on it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Execution {

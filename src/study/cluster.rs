@@ -2,6 +2,7 @@
 
 use super::{
     StudyError,
+    case::{MOST_RANKS, MOST_THREADS},
     file::ClusterFile,
     finding::{Finding, Findings, Place},
     quantity::Duration,
@@ -98,9 +99,9 @@ pub(crate) fn resolve(given: &Given<ClusterFile>, findings: &Findings) -> Cluste
         partition: check.word(&file.partition, "partition"),
         account: check.word(&file.account, "account"),
         time: check.time(&file.time),
-        nodes: check.count(&file.nodes, "nodes"),
-        ranks: check.count(&file.ranks, "ranks"),
-        threads: check.count(&file.threads, "threads"),
+        nodes: check.count(&file.nodes, "nodes", MOST_RANKS),
+        ranks: check.count(&file.ranks, "ranks", MOST_RANKS),
+        threads: check.count(&file.threads, "threads", MOST_THREADS),
         modules: check.list(&file.modules, |check, given| check.word(given, "modules")),
         preamble: file.preamble.right().map(|text| text.trim_end().to_owned()),
         options: check.list(&file.options, Check::option),
@@ -176,10 +177,15 @@ impl Check<'_> {
         None
     }
 
-    fn count(&self, given: &Given<u32>, key: &str) -> Option<u32> {
+    fn count(&self, given: &Given<u32>, key: &str, most: u32) -> Option<u32> {
         match *given {
             Given::Right(0, place) => {
                 let message = format!("`cluster.{key}` must be at least 1");
+                self.refuse(place, message, "leave it out for one");
+                None
+            }
+            Given::Right(number, place) if number > most => {
+                let message = format!("`cluster.{key}` must be at most {most}, more than any machine has");
                 self.refuse(place, message, "leave it out for one");
                 None
             }

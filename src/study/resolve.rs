@@ -202,7 +202,7 @@ fn example(path: &str, dimension: units::Dimension) -> &'static str {
         _ if path == "probes.every" => "1 ps",
         _ if path == "run.time-step" => "2 fs",
         _ if path == "crack.length" => "56 nm",
-        _ if path == "crack.center" => "283 nm",
+        _ if path == "crack.center" => "57 nm",
         _ if path == "specimen.length" => "566 nm",
         _ => dimension.example(),
     }

@@ -3,8 +3,8 @@
 use super::{At, Check, nanometres, specimen::SpecimenAt};
 use crate::study::{
     case::{
-        Crack, Edge, Execution, Loading, MassMatrix, Mode, Probes, Ramp, Run, SnapshotInterval, Snapshots, Summation,
-        TimeStep, Until,
+        Crack, Edge, Execution, Loading, MOST_RANKS, MOST_THREADS, MassMatrix, Mode, Probes, Ramp, Run,
+        SnapshotInterval, Snapshots, Summation, TimeStep, Until,
     },
     defaults,
     file::{self, Interval, Observe},
@@ -31,10 +31,6 @@ const MOST_RELAX: f64 = 0.2;
 
 /// No edge of an element has bonds for so many points; as many points as bonds are the sum over all of them.
 const MOST_POINTS: u32 = 100;
-
-/// More than any machine has.
-const MOST_THREADS: u32 = 4096;
-const MOST_RANKS: u32 = 1 << 24;
 
 /// Checkpoints more often than this leave no time for steps, s.
 const FASTEST_CHECKPOINTS: f64 = 1e-3;

@@ -38,7 +38,7 @@ fn all_refusals_of_mesh_and_material_are_told_at_once_with_their_places() {
         for told in [
             "faster than sound",
             "slab.yaml:17:",
-            "GiB free",
+            "GB free",
             "slab.yaml:18:",
             "2 mistakes",
         ] {
