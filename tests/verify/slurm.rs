@@ -163,9 +163,9 @@ fn a_refusal_is_told(slurm: &Slurm) {
     assert!(said.contains("invalid partition specified: nowhere"), "{said}");
 }
 
-/// At the stability limit the crack blows up.
+/// A given step just below the limit of the crystal: it blows up when the crack breaks through.
 const FAILING: &str = "  failing: {resolution: {element: 10, regions: [{band: {half-width: 2.3 nm, element: 1}}]}, \
-                       run: {time-step: {fraction: 1.0}}}\n";
+                       run: {time-step: 108 fs}}\n";
 
 fn an_array_gives_the_bits_of_a_local_run_and_a_failure_stays_alone(slurm: &Slurm) {
     let place = Place::new(slurm, &format!("{STUDY}{FAILING}"));

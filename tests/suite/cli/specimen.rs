@@ -70,7 +70,8 @@ fn what_is_left_over_is_told_with_its_place_and_warned_of_where_it_is_much() {
 fn one_specimen_that_comes_out_of_unlike_heights_is_told_and_one_block_for_all_makes_it_alike() {
     let sizes = "resolution.element: [5, 10, 20]";
     let unlike = checked(&swept(sizes));
-    let told = "warning: element-5, element-10, element-20: one specimen asked for, 26.78 to 33.42 nm high between the grips";
+    let told =
+        "warning: element-5, element-10, element-20: one specimen asked for, 26.78 to 33.42 nm high between the grips";
     assert!(unlike.contains(told), "{unlike}");
     let alike = checked(&swept(sizes).replace("width: 35.4 nm", "width: 35.4 nm, block: 20"));
     assert!(!alike.contains("one specimen asked for"), "{alike}");
