@@ -19,7 +19,7 @@ use estimate::refuse_what_does_not_fit;
 pub use estimate::{Estimate, Estimator, Specimen};
 pub use geometry::{Geometry, Notch, Size};
 pub use leftovers::Leftovers;
-pub use run::{Finished, RunCaseError, run_case};
+pub use run::{Finished, MOST_THREADS_A_CORE, RunCaseError, run_case};
 
 use std::time::Duration;
 
@@ -118,6 +118,10 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
     }
     let case::Loading::StrainRate { sponge, .. } = case.loading;
     let element_row = f64::from(case.resolution.element) * triangular::ROW_HEIGHT * spacing;
+    let height = f64::from((layout.rows - 2) * layout.block) * triangular::ROW_HEIGHT * spacing;
+    if let Some(sponge) = sponge.filter(|sponge| 2.0 * sponge >= height) {
+        return Err(SetupError::SpongesMeet { sponge, height });
+    }
     if let Some(sponge) = sponge.filter(|&sponge| sponge < element_row) {
         return Err(SetupError::SpongeTooThin {
             sponge,
@@ -157,7 +161,7 @@ fn refuse_cracks_beyond(case: &Case, sites: &SiteSet, spacing: f64) -> Result<()
     let Some(crack) = &case.crack else { return Ok(()) };
     let [first, last] = [sites.first_bond(), sites.last_bond()].map(|bond| bond * spacing);
     let (shortest, longest) = match crack.edge {
-        case::Edge::Left | case::Edge::Right => (first, last),
+        case::Edge::Left | case::Edge::Right => (first.max(spacing), last),
         case::Edge::None { center } => (0.5 * spacing, last - center),
     };
     if crack.measured() <= shortest {

@@ -122,7 +122,8 @@ pub fn history(series: &Series, setting: &Setting) -> Option<History> {
         if found.leaves_plane.is_none() && tracker.has_left_plane() {
             found.leaves_plane = leaves_plane(&tracker, probe, row, series);
         }
-        if found.parted_elsewhere.is_none() {
+        // Under compression the crystal folds, and nothing parts.
+        if found.parted_elsewhere.is_none() && row.strain > 0.0 {
             let parts = band.follow(&tracker, now);
             found.parted_elsewhere = parts.map(|y| PartedElsewhere {
                 time: row.time,

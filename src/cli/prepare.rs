@@ -7,11 +7,11 @@ use jiff::Timestamp;
 
 use super::estimate::estimates;
 use super::survey::{self, Common, Entry, Place, Survey};
-use super::{CliError, format, specimen};
+use super::{CliError, format, specimen, warnings};
 use crate::executor::Job;
 use crate::executor::share::{Crew, Demand, Share, share};
 use crate::plan::{self as planning, PlannedCase};
-use crate::setup::Estimate;
+use crate::setup::{Estimate, MOST_THREADS_A_CORE, cautions};
 use crate::store::State;
 use crate::study::case::{MOST_RANKS, MOST_THREADS};
 
@@ -104,7 +104,7 @@ pub struct Prepared {
     pub disk: u64,
     /// Of this machine.
     pub cores: usize,
-    /// Cases among them that are one computation.
+    /// What `check` warns of.
     pub warnings: Vec<String>,
 }
 
@@ -127,7 +127,12 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         .iter()
         .zip(estimates.iter().map(|estimate| &estimate.specimen))
         .collect();
-    let warnings = specimen::one_computation(&laid);
+    let cautions = asked.iter().flat_map(|planned| {
+        let cautions = cautions(&planned.case).into_iter();
+        cautions.map(|caution| (planned.name.as_str(), caution))
+    });
+    let mut warnings = specimen::warnings(&laid);
+    warnings.extend(warnings::once(cautions));
     let now = Timestamp::now();
     let job = |(entry, estimate): (&Entry, &Estimate)| Job {
         name: entry.planned.name.clone(),
@@ -141,6 +146,9 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
     };
     let jobs: Vec<Job> = wanted.into_iter().zip(&estimates).map(job).collect();
     let cores = thread::available_parallelism().map_or(1, usize::from);
+    if arguments.on == On::Local {
+        refuse_too_many_threads(&jobs, cores)?;
+    }
     let demands: Vec<Demand> = jobs.iter().map(Job::demand).collect();
     // Cases side by side would disturb each other's time.
     let alone = survey.plan.compares_crews().then_some(1);
@@ -153,6 +161,20 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         cores,
         warnings,
     })
+}
+
+/// The solver refuses so many too, but only when it is started.
+fn refuse_too_many_threads(jobs: &[Job], cores: usize) -> Result<(), CliError> {
+    let most = MOST_THREADS_A_CORE * cores as u32;
+    let asked = jobs.iter().filter_map(|job| Some((job, job.threads?)));
+    match asked.max_by_key(|(_, threads)| *threads) {
+        Some((job, threads)) if threads > most => Err(CliError::Input(format!(
+            "{}: {threads} threads are more than {MOST_THREADS_A_CORE} for each of the {cores} cores of this machine; ask for \
+             {cores} or fewer",
+            job.name
+        ))),
+        _ => Ok(()),
+    }
 }
 
 /// Where cases are compared by their ranks or threads, one number for all would make them other cases.

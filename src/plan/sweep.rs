@@ -112,7 +112,7 @@ fn read_path<'a>(name: &'a str, place: Place, node: &'a Node, findings: &Finding
                 },
             )) => {
                 let message = format!("`{name}` is swept by the paths of what is in it");
-                let help = format!("write `{name}.{}: […]`", key.text());
+                let help = format!("write `{name}.{}: […]`", swept_below(keys));
                 Err(Finding::at(key.place, message).help(help))
             }
             _ => range::values(node),
@@ -126,6 +126,19 @@ fn read_path<'a>(name: &'a str, place: Place, node: &'a Node, findings: &Finding
             findings.add(finding);
             None
         }
+    }
+}
+
+/// The path from a section to the first list in it.
+fn swept_below(keys: &[(Node, Node)]) -> String {
+    let Some((key, node)) = keys.first() else {
+        return String::new();
+    };
+    match &node.value {
+        Value::Map(inner) if !inner.iter().any(|(key, _)| key.text() == "from") => {
+            format!("{}.{}", key.text(), swept_below(inner))
+        }
+        _ => key.text().to_owned(),
     }
 }
 

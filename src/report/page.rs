@@ -1,9 +1,9 @@
 //! The page: everything a reader needs, in one file that asks nothing of the network.
 
 use super::chart::{Chart, Drawing};
+use super::overview::{self, Group, Row};
 use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
-use super::summary::{self, Group, Row};
 use super::table::Table;
 use super::tables::{comparison, specimen};
 use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling};
@@ -58,7 +58,7 @@ impl Page<'_> {
             verdict => self.verdict(),
             names => list(self.cases, |case| case.name().into()),
             many => self.cases.len() > MOST_ABREAST,
-            groups => list(&summary::groups(self.cases), group),
+            groups => list(&overview::groups(self.cases), group),
             specimens => list(&specimen::notes(self.cases), pair),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             scaling => self.scaling.map(|found| self.scaling(found)),
@@ -80,8 +80,8 @@ impl Page<'_> {
 impl Page<'_> {
     fn verdict(&self) -> String {
         match self.scaling.and_then(scaling::verdict) {
-            Some(gain) => format!("{} {gain}", summary::done(self.cases)),
-            None => summary::verdict(self.cases),
+            Some(gain) => format!("{} {gain}", overview::done(self.cases)),
+            None => overview::verdict(self.cases),
         }
     }
 

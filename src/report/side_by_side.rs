@@ -6,7 +6,7 @@ mod quantity;
 use polars::prelude::Column;
 
 use super::numbers::ABSENT;
-use super::summary::{self, Row};
+use super::overview::{self, Row};
 use super::table::Rows;
 use super::{Analysed, CaseResult, Study};
 use crate::plan::SideBySide;
@@ -74,7 +74,7 @@ impl Panel<'_> {
     /// What differs between the cases, and what comes out; in brackets how far from the first.
     pub fn rows(&self) -> Vec<Row> {
         let results: Vec<&CaseResult> = self.sides.iter().map(|side| side.case.result).collect();
-        let mut rows = summary::differing(&results);
+        let mut rows = overview::differing(&results);
         let cells = |quantity: Quantity| {
             let first = quantity.value(self.first());
             let cell = |(index, side): (usize, &Side)| match quantity.value(side.case) {

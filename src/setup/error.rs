@@ -36,6 +36,10 @@ pub enum SetupError {
         least_is: &'static str,
     },
     /// nm
+    SpongesMeet {
+        sponge: f64,
+        height: f64,
+    },
     SpongeTooThin {
         sponge: f64,
         row: f64,
@@ -128,8 +132,9 @@ impl SetupError {
                     "with a probe every {every:.3} ps a run of about {time:.3} ps is looked at too rarely to tell when \
                      anything happens"
                 ),
-                format!("probe every {:.2} ps or more often", time / 100.0),
-            ),
+                format!("probe every {:.2e} ps or more often", time / 100.0),
+            )
+            .with(Subject::Until, "of a run that ends here"),
             Self::TooShort {
                 subject,
                 what,
@@ -143,6 +148,12 @@ impl SetupError {
                     Subject::Damping => format!("write a rate of at most {:.2e} /s", 1e12 / least),
                     _ => format!("let it be {least:.3} ps or longer"),
                 },
+            )
+            .with(Subject::TimeStep, "in these steps"),
+            Self::SpongesMeet { sponge, height } => Refusal::new(
+                Subject::Sponge,
+                format!("two sponges of {sponge} nm leave nothing of the {height:.2} nm between the grips for a crack"),
+                "make the sponges thinner or the specimen wider",
             ),
             Self::SpongeTooThin { sponge, row } => Refusal::new(
                 Subject::Sponge,

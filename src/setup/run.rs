@@ -32,7 +32,7 @@ pub struct Finished {
 }
 
 /// More threads than this on every core bring a machine to a halt; it leaves room for tests of many threads.
-const MOST_THREADS_A_CORE: u32 = 32;
+pub const MOST_THREADS_A_CORE: u32 = 32;
 
 /// Why a case was not computed.
 #[derive(Debug, thiserror::Error)]

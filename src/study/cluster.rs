@@ -30,11 +30,15 @@ pub struct Cluster {
     pub options: Vec<String>,
 }
 
-/// Slurm counts time in minutes, s.
+/// Slurm counts time in minutes, s. No job runs for ten years.
 const SHORTEST: f64 = 60.0;
+const LONGEST: f64 = 3.2e8;
 
 /// What the runner itself tells `sbatch`, and must know.
-const RESERVED: [&str; 14] = [
+const RESERVED: [&str; 17] = [
+    "--partition",
+    "--account",
+    "--time",
     "--array",
     "--job-name",
     "--output",
@@ -156,11 +160,13 @@ impl Check<'_> {
         } else if let Some(reserved) = RESERVED.iter().find(|reserved| reserved.starts_with(name)) {
             // sbatch takes the beginning of a name for the whole.
             let message = format!("`{reserved}` is set by cgaft itself");
-            self.refuse(
-                *place,
-                message,
-                "leave it out; `cgaft study plan FILE --on slurm` shows the script",
-            );
+            let help = match *reserved {
+                "--partition" | "--account" | "--time" => {
+                    "write it as a key of `cluster`: `partition`, `account` or `time`"
+                }
+                _ => "leave it out; `cgaft study plan FILE --on slurm` shows the script",
+            };
+            self.refuse(*place, message, help);
         } else {
             return Some(text.clone());
         }
@@ -169,10 +175,15 @@ impl Check<'_> {
 
     fn time(&self, given: &Given<Duration>) -> Option<f64> {
         let Given::Right(time, place) = *given else { return None };
-        if time.value >= SHORTEST {
+        if (SHORTEST..LONGEST).contains(&time.value) {
             return Some(time.value);
         }
-        let message = format!("`cluster.time` must be at least a minute, and {time} is not");
+        let bound = if time.value < SHORTEST {
+            "at least a minute"
+        } else {
+            "less than ten years"
+        };
+        let message = format!("`cluster.time` must be {bound}, and {time} is not");
         self.refuse(place, message, "write for example `time: 4 h`");
         None
     }

@@ -4,6 +4,7 @@
 //! becomes `Given::Wrong`, its mistake noted, while its neighbours are read as usual.
 
 mod access;
+mod any;
 mod deserializer;
 mod position;
 

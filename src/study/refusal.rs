@@ -64,6 +64,11 @@ impl Refusal {
     pub(crate) fn finding(&self, typed: &Given<CaseFile>) -> Finding {
         let mut finding = Finding::whole(&self.message).help(&self.help);
         finding.place = self.subject.place(typed);
+        if finding.place.is_none() {
+            // It is a default: what else takes part was typed.
+            finding.place = self.related.and_then(|(subject, _)| subject.place(typed));
+            return finding;
+        }
         match self
             .related
             .and_then(|(subject, what)| Some((subject.place(typed)?, what)))

@@ -2,7 +2,6 @@
 //!
 //! Values are kept as the text that was typed, so that no number is rounded before its unit is known.
 
-mod any;
 mod builder;
 
 use super::finding::Place;

@@ -269,6 +269,32 @@ fn a_huge_file_is_refused_without_being_read() {
 }
 
 #[test]
+fn a_pipe_in_the_place_of_a_study_or_of_a_table_is_refused_at_once() {
+    let folder = tempfile::tempdir().unwrap();
+    let pipe = folder.path().join("pipe.csv");
+    let made = std::process::Command::new("mkfifo").arg(&pipe).status().unwrap();
+    assert!(made.success());
+    let told = check(&pipe).unwrap_err().to_string();
+    assert!(told.contains("it is a pipe or a device and no file"), "{told}");
+    let study = folder.path().join("study.yaml");
+    fs::write(&study, starter("fresh") + "\ncompare: {x: pipe.csv}\n").unwrap();
+    let told = check(&study).unwrap_err().to_string();
+    assert!(told.contains("pipe.csv cannot be read: it is a pipe"), "{told}");
+}
+
+#[test]
+fn a_million_nodes_are_checked_within_two_seconds() {
+    let text = fs::read_to_string(Path::new(env!("CARGO_MANIFEST_DIR")).join("studies/quickstart.yaml")).unwrap();
+    let larger = text.replace("length: 115 nm, width: 35.4 nm", "length: 600 nm, width: 110 nm");
+    let start = Instant::now();
+    let plan = check_text(&larger).unwrap();
+    let atoms = plan.cases.iter().find(|planned| planned.name == "atoms").unwrap();
+    let estimate = setup::Estimator::default().estimate(&atoms.case).unwrap();
+    assert!(estimate.nodes > 1_000_000);
+    assert!(start.elapsed() < Duration::from_secs(2), "{:?}", start.elapsed());
+}
+
+#[test]
 fn a_folder_and_a_missing_file_are_named() {
     let folder = tempfile::tempdir().unwrap();
     assert!(

@@ -20,7 +20,7 @@ pub enum SlurmError {
     )]
     Refused { program: &'static str, words: String },
     #[error(
-        "{source}. {submitted} cases were submitted before that and run on: `cgaft study status` tells how far they are, \
+        "{source}. Before that these were submitted and run on, {submitted} in all: `cgaft study status` tells how far they are, \
          `cgaft study cancel` ends them"
     )]
     Halfway { submitted: usize, source: Box<SlurmError> },

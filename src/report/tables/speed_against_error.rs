@@ -7,7 +7,7 @@ use crate::report::chart::scatter::{Mark, Point, Scatter};
 use crate::report::chart::{Chart, Content};
 use crate::report::table::Rows;
 use crate::report::units::PERCENT;
-use crate::report::{Analysed, Difference, summary};
+use crate::report::{Analysed, Difference, overview};
 
 const MEBIBYTE: f64 = 1_048_576.0;
 
@@ -89,8 +89,8 @@ impl Row<'_> {
     /// The error in percent as far as it can be told, which is never nothing.
     fn resolved_percent(&self, quantity: Quantity) -> Option<f64> {
         let probe = match quantity {
-            Quantity::Initiation | Quantity::StressIntensity => summary::between_probes(self.case, self.reference),
-            Quantity::Arrival => summary::between_arrivals(self.reference),
+            Quantity::Initiation | Quantity::StressIntensity => overview::between_probes(self.case, self.reference),
+            Quantity::Arrival => overview::between_arrivals(self.reference),
             Quantity::Stress | Quantity::Speed => None,
         };
         let least = (probe.unwrap_or(0.0) * PERCENT).max(LEAST_PERCENT);

@@ -32,8 +32,12 @@ const MOST_RELAX: f64 = 0.2;
 /// No edge of an element has bonds for so many points; as many points as bonds are the sum over all of them.
 const MOST_POINTS: u32 = 100;
 
-/// Checkpoints more often than this leave no time for steps, s.
+/// Checkpoints more often than this leave no time for steps, s, and more rarely than this there are none.
 const FASTEST_CHECKPOINTS: f64 = 1e-3;
+const RAREST_CHECKPOINTS: f64 = 1e7;
+
+/// A step of a smaller share of the limit gains no accuracy: rounding of the steps takes over.
+const LEAST_FRACTION: f64 = 1e-3;
 
 impl Check<'_> {
     pub fn loading(&self, given: &Given<file::Loading>, case: Place, specimen: &SpecimenAt) -> Option<Loading> {
@@ -291,11 +295,11 @@ impl Check<'_> {
                 let Given::Right(fraction, place) = *fraction else {
                     return None;
                 };
-                if fraction > 0.0 && fraction <= 1.0 {
+                if (LEAST_FRACTION..=1.0).contains(&fraction) {
                     return Some(TimeStep::Auto { fraction });
                 }
                 let message = format!(
-                    "the time step must be more than 0 and at most 1 of the stability limit, and {fraction} is not"
+                    "the time step must be from {LEAST_FRACTION} to 1 of the stability limit, and {fraction} is not"
                 );
                 self.add(Finding::at(place, message).help("write `time-step: auto` for a safe fraction"));
                 None
@@ -308,8 +312,12 @@ impl Check<'_> {
         let ranks = self.counted(&values.ranks, "run.ranks", MOST_RANKS);
         let threads = self.counted(&values.threads, "run.threads", MOST_THREADS);
         let every = self.size_if_given(&values.checkpoint_every, "run.checkpoint-every")?;
-        if let Some((_, place)) = every.filter(|(every, _)| *every < FASTEST_CHECKPOINTS) {
-            let message = "checkpoints more often than a thousand times a second leave no time for steps";
+        let usual = FASTEST_CHECKPOINTS..RAREST_CHECKPOINTS;
+        if let Some((every, place)) = every.filter(|(every, _)| !usual.contains(every)) {
+            let message = match every < FASTEST_CHECKPOINTS {
+                true => "checkpoints more often than a thousand times a second leave no time for steps",
+                false => "a checkpoint in four months or more is none",
+            };
             self.add(Finding::at(place, message).help("write for example `checkpoint-every: 10 min`"));
             return None;
         }

@@ -319,7 +319,7 @@ fn check_warns_of_a_time_step_near_the_limit() {
     };
     let risky = check("0.99");
     assert!(
-        risky.contains("warning: A: the time step is 99 % of the limit"),
+        risky.contains("warning: A, B, C: the time step is 99 % of the limit"),
         "{risky}"
     );
     assert!(!check("0.8").contains("warning"));
@@ -334,12 +334,12 @@ fn check_warns_of_rules_that_look_at_some_bonds_only() {
     };
     let nodal = check("nodal");
     assert!(
-        nodal.contains("warning: A: `summation: nodal` fails the patch test: uncracked it is 43 % too soft"),
+        nodal.contains("warning: A, B, C: `summation: nodal` fails the patch test: uncracked it is 43 % too soft"),
         "{nodal}"
     );
     let gauss = check("{gauss: 2}");
     assert!(
-        gauss.contains("warning: A: `summation: {gauss: 2}` looks at some bonds"),
+        gauss.contains("warning: A, B, C: `summation: {gauss: 2}` looks at some bonds"),
         "{gauss}"
     );
     for silent in ["exact", "{gauss: {points: 2, strict: true}}"] {

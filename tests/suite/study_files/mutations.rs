@@ -128,17 +128,30 @@ fn complaint(text: &str) -> Option<String> {
             };
         }
     };
-    let case = &plan.cases.first()?.case;
-    if case.specimen.length * case.specimen.width > LARGEST {
-        let material = setup::material(case).ok()?;
-        let _ = setup::mesh_plan(case, &material);
-        return None;
-    }
-    let estimate = Estimator::default().estimate(case).ok()?;
-    let numbers = [estimate.time_step, estimate.stability_limit, estimate.seconds];
-    let is_sound =
-        numbers.iter().all(|number| number.is_finite() && *number > 0.0) && estimate.disk_bytes < u64::MAX / 2;
-    (!is_sound).then(|| format!("accepted with {estimate:?}"))
+    let mut estimator = Estimator::default();
+    plan.cases.iter().find_map(|planned| {
+        let case = &planned.case;
+        let is_large = case.specimen.length * case.specimen.width > LARGEST;
+        let refused = |why: setup::SetupError| {
+            let mistakes = plan.refuse([(planned.name.as_str(), why.refusal())]).mistakes();
+            let is_placed = mistakes
+                .iter()
+                .all(|mistake| mistake.line.is_some() && mistake.help.is_some());
+            (!is_placed).then(|| format!("refused without place or advice: {mistakes:?}"))
+        };
+        if is_large {
+            let laid = setup::material(case).and_then(|material| setup::mesh_plan(case, &material));
+            return laid.err().and_then(refused);
+        }
+        let estimate = match estimator.estimate(case) {
+            Ok(estimate) => estimate,
+            Err(why) => return refused(why),
+        };
+        let numbers = [estimate.time_step, estimate.stability_limit, estimate.seconds];
+        let is_sound =
+            numbers.iter().all(|number| number.is_finite() && *number > 0.0) && estimate.disk_bytes < u64::MAX / 2;
+        (!is_sound).then(|| format!("accepted with {estimate:?}"))
+    })
 }
 
 #[test]

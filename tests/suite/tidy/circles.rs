@@ -24,6 +24,11 @@ fn paths(code: &str) -> Vec<Module> {
             expand(code[at + "use ".len()..end].trim(), &[], &mut found);
         }
     }
+    // A file may use what stands below it without naming it in a `use`.
+    let below = code
+        .lines()
+        .filter_map(|line| line.rsplit_once("mod ")?.1.strip_suffix(';'));
+    found.extend(below.map(|name| vec![name.to_owned()]));
     for head in ["super::", "crate::"] {
         for (at, _) in code.match_indices(head) {
             let is_inside =
@@ -182,6 +187,13 @@ fn circles_are_found_however_the_imports_are_written() {
     ];
     assert_eq!(house(&three), Some(3));
     assert_eq!(house(&three[..3]), None);
+    let through_a_parent = [
+        ("report", ""),
+        ("report::figures", "use super::tables::all;\n"),
+        ("report::tables", "pub mod cost;\nfn all() { cost::columns() }\n"),
+        ("report::tables::cost", "use crate::report::figures::Chart;\n"),
+    ];
+    assert_eq!(house(&through_a_parent), Some(3));
     let parent = [("report", "mod a;\nuse a::X;\n"), ("report::a", "use super::Shared;\n")];
     assert_eq!(house(&parent), None, "a folder and its file");
 }

@@ -37,7 +37,7 @@ fn a_refusal_after_some_were_submitted_says_that_those_run_on() {
     assert_eq!(run.code, Some(3), "{}{}", run.stdout, run.stderr);
     for told in [
         "invalid account",
-        "2 cases were submitted before that and run on",
+        "Before that these were submitted and run on, 2 in all",
         "`cgaft study cancel`",
     ] {
         assert!(run.stderr.contains(told), "no `{told}` in {}", run.stderr);

@@ -1,7 +1,10 @@
 //! A part of the tree taken as it is, where its type is only known later (the values of a sweep).
 
-use super::{Node, Value};
-use crate::study::{finding::Place, reader::Given};
+use super::Given;
+use crate::study::{
+    finding::Place,
+    tree::{Node, Value},
+};
 use serde::de::{self, Deserialize, Deserializer};
 use std::fmt;
 
