@@ -3,14 +3,14 @@
 use super::crack::Tip;
 use super::series::{Series, Setting};
 
-/// Spacings beyond the notch that the tip must pass, on every mesh: more than the edge of an element of ten atoms, which
-/// opens bond by bond at half of the load at which the crack leaves it.
+/// Spacings beyond the notch that the tip must pass: more than the edge of an element of ten atoms, which opens bond by bond, as
+/// a hinge, at half of the load at which the crack leaves it. Where edges are longer, one edge, from corner to corner.
 pub const ADVANCE_SPACINGS: f64 = 12.0;
 
 /// A tip that does not advance while the strain grows by this share stands still.
 pub const STAND_GROWTH: f64 = 0.1;
 
-/// An advance through [`ADVANCE_SPACINGS`] that needs this much more strain, as a share, is led by the load: the crack
+/// An advance through [`far`] that needs this much more strain, as a share, is led by the load: the crack
 /// creeps, unless it is faster than [`ARREST_SPEED`].
 pub const CREEP_GROWTH: f64 = 0.2;
 
@@ -36,16 +36,17 @@ pub fn threshold(setting: &Setting) -> f64 {
 
 /// Advance along the path that a crack that has set out has behind it, nm.
 pub fn far(setting: &Setting) -> f64 {
-    ADVANCE_SPACINGS * setting.spacing
+    let edge = f64::from(setting.element_at_crack + 1);
+    ADVANCE_SPACINGS.max(edge) * setting.spacing
 }
 
-/// The beginning of the advance that takes the tip [`ADVANCE_SPACINGS`] beyond the notch: where it leaves, for good, the
+/// The beginning of the advance that takes the tip [`far`] beyond the notch: where it leaves, for good, the
 /// place at which it last stood still. An advance that creeps, and one under compression, is none: then the next one counts
 /// that takes the tip as far again.
 ///
 /// Standing and creeping are told by the growth of the load, which is the textbook's stable growth of a crack: the event is
-/// then the same at any strain rate. Its measure is a length that is the same on every mesh, not an edge of its elements: a
-/// crack in large elements has not started because it has opened the first bonds of an edge.
+/// then the same at any strain rate. Its measure is a length that is the same on every mesh whose edges are shorter: a crack in
+/// large elements has not started because it has opened the first bonds of an edge.
 pub fn initiation(tips: &[Tip], series: &Series, setting: &Setting) -> Option<Initiation> {
     let notch = tips.first()?.arc_length;
     let course = Course {

@@ -84,7 +84,7 @@ fn stress_intensity(cases: &[Analysed], comparisons: &[Comparison]) -> Option<St
 }
 
 /// Factors alike within this share are one factor.
-const ONE_FACTOR: f64 = 0.02;
+const ONE_FACTOR: f64 = 0.03;
 
 /// Whether one factor takes K near the tip to the source's value in all cases, as it does where only the definitions differ.
 fn one_factor(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {

@@ -37,7 +37,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Initiation",
             format!(
-                "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings beyond the notch, on every mesh and at \
+                "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings beyond the notch, or one edge of an element where that is longer, at \
                  every rate: where it leaves for good the place at which it last stood still while the strain grew by {} %. An \
                  advance that needs {} % more strain and is slower than {ARREST_SPEED} c_R creeps and is none, and there is none \
                  under compression. The first bond is that by which the tip first moves.",

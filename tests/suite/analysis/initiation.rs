@@ -77,12 +77,14 @@ fn the_crack_starts_at_the_same_strain_however_fast_it_is_pulled() {
 
 #[test]
 fn the_start_does_not_depend_on_the_elements_by_which_a_course_was_computed() {
+    // On to where the crack has left the longest edge too.
+    let course = [&EDGE[..8], &[(0.026_5, 24.0), (0.028_5, 34.0), (0.030_0, 45.0)]].concat();
     for element_at_crack in [1, 4, 10, 40] {
         let setting = Setting {
             element_at_crack,
             ..setting()
         };
-        let found = strain(start(&EDGE, false, 1e-4, &setting));
+        let found = strain(start(&course, false, 1e-4, &setting));
         assert!(
             (found - 0.024_5).abs() < EXACT,
             "elements of {element_at_crack}: {found}"
@@ -109,6 +111,27 @@ fn a_creep_of_a_hundredth_of_the_rayleigh_speed_is_no_start_and_the_run_after_it
     let found = strain(start(&then_runs, true, rate, &setting()));
     // The beginning of a run is told to the growth of the load by which a creep is told.
     assert!((0.8 * 0.045..0.046).contains(&found), "{found}");
+}
+
+/// As the quickstart's slab does in elements of forty atoms: the edge opens by half and closes again by a little.
+#[test]
+fn an_edge_of_forty_atoms_that_opens_as_a_hinge_is_no_start() {
+    let coarse = Setting {
+        element_at_crack: 40,
+        ..setting()
+    };
+    let hinge = [
+        (0.013, 5.0),
+        (0.0145, 16.5),
+        (0.016, 13.0),
+        (0.018, 24.5),
+        (0.021, 31.0),
+        (0.0222, 42.0),
+        (0.025, 60.0),
+    ];
+    let found = strain(start(&hinge, false, 1e-4, &coarse));
+    assert!((found - 0.021).abs() < EXACT, "{found}");
+    assert_eq!(start(&hinge[..5], false, 1e-4, &coarse), None);
 }
 
 #[test]
