@@ -10,6 +10,11 @@ pub const ADVANCE_SPACINGS: f64 = 12.0;
 /// A tip that does not advance while the strain grows by this share stands still.
 pub const STAND_GROWTH: f64 = 0.1;
 
+/// The same of a tip that has broken no more than the one bond at the very end of the notch: when that breaks hangs on how the
+/// notch ends, and the next bonds may need a tenth more load.
+pub const STAND_GROWTH_AT_NOTCH: f64 = 0.05;
+const NOTCH_END_SPACINGS: f64 = 0.75;
+
 /// An advance through [`far`] that needs this much more strain, as a share, is led by the load: the crack
 /// creeps, unless it is faster than [`ARREST_SPEED`].
 pub const CREEP_GROWTH: f64 = 0.2;
@@ -53,6 +58,7 @@ pub fn initiation(tips: &[Tip], series: &Series, setting: &Setting) -> Option<In
         advance: tips.iter().map(|tip| tip.arc_length - notch).collect(),
         series,
         reach: far(setting),
+        notch_end: NOTCH_END_SPACINGS * setting.spacing,
     };
     let mut target = course.reach;
     let mut from = 1;
@@ -82,6 +88,8 @@ struct Course<'a> {
     advance: Vec<f64>,
     series: &'a Series,
     reach: f64,
+    /// What the tip has advanced when one bond has broken is less than this, nm.
+    notch_end: f64,
 }
 
 impl Course<'_> {
@@ -96,7 +104,11 @@ impl Course<'_> {
         let mut start = there;
         for probe in (from..there).rev() {
             let [now, then] = [start, probe].map(|probe| self.series.probes[probe].strain);
-            let stood = start - probe > 1 && now - then > STAND_GROWTH * now;
+            let growth = match self.advance[probe] < self.notch_end {
+                true => STAND_GROWTH_AT_NOTCH,
+                false => STAND_GROWTH,
+            };
+            let stood = start - probe > 1 && now - then > growth * now;
             if stood || self.advance[probe] < target - self.reach {
                 break;
             }

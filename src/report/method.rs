@@ -6,7 +6,7 @@ use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
 use crate::analysis::crack::leaving::LEAVES_PLANE_SPACINGS;
 use crate::analysis::crack::{SPUR_ELEMENTS, SPUR_SPACINGS};
-use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED, CREEP_GROWTH, STAND_GROWTH};
+use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED, CREEP_GROWTH, STAND_GROWTH, STAND_GROWTH_AT_NOTCH};
 use crate::analysis::series::{CrackFrom, RINGS, Setting};
 use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
 use crate::analysis::stress_intensity::{
@@ -40,9 +40,10 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings beyond the notch, or one edge of an element where that is longer, at \
                  every rate: where it leaves for good the place at which it last stood still while the strain grew by {} %. An \
                  advance that needs {} % more strain and is slower than {ARREST_SPEED} c_R creeps and is none, and there is none \
-                 under compression. The first bond is that by which the tip first moves.",
+                 under compression, nor is the bond at the very end of the notch alone, if {} % more strain pass before the next. The first bond is that by which the tip first moves.",
                 percent(STAND_GROWTH),
-                percent(CREEP_GROWTH)
+                percent(CREEP_GROWTH),
+                percent(STAND_GROWTH_AT_NOTCH)
             ),
         ),
         (

@@ -113,6 +113,24 @@ fn a_creep_of_a_hundredth_of_the_rayleigh_speed_is_no_start_and_the_run_after_it
     assert!((0.8 * 0.045..0.046).contains(&found), "{found}");
 }
 
+/// As model D does in elements of four atoms: the bond at the corner breaks at nine tenths of the load.
+#[test]
+fn the_bond_at_the_very_end_of_the_notch_is_no_start_if_the_next_needs_more_load() {
+    for (wait, starts_with_it) in [(1.005, true), (1.04, true), (1.06, false), (1.094, false)] {
+        let next = 0.0478 * wait;
+        let corner = [
+            (0.0478, 0.5),
+            (next, 1.0),
+            (next + 0.0005, 8.0),
+            (next + 0.001, 14.0),
+            (next + 0.002, 20.0),
+        ];
+        let found = strain(start(&corner, false, 1e-5, &setting()));
+        let expected = if starts_with_it { 0.0478 } else { next };
+        assert!((found - expected).abs() < 2.0 * STEP, "{wait}: {found}");
+    }
+}
+
 /// As the quickstart's slab does in elements of forty atoms: the edge opens by half and closes again by a little.
 #[test]
 fn an_edge_of_forty_atoms_that_opens_as_a_hinge_is_no_start() {
