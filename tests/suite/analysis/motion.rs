@@ -200,6 +200,11 @@ fn a_specimen_that_parts_at_a_grip_is_told_and_scattered_damage_is_not() {
     assert_eq!(findings(breaks(&row(0.77), 30), 60).parted_elsewhere, None);
     let found = findings(running(99.0, 390.0, 50), 240);
     assert_eq!(found.parted_elsewhere, None, "the crack itself");
+    let setting = setting();
+    let mut pressed = series(60, breaks(&row(0.83), 30), &setting);
+    pressed.probes.iter_mut().for_each(|probe| probe.strain *= -1.0);
+    let found = analyse(&pressed, &setting);
+    assert_eq!(found.parted_elsewhere, None, "under compression it folds");
 }
 
 #[test]
