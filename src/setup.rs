@@ -110,15 +110,14 @@ pub fn mesh_plan(case: &Case, material: &Material) -> Result<Plan, SetupError> {
             spacing,
         });
     }
-    let case::Loading::StrainRate { rate, .. } = case.loading;
-    let speed = 0.5 * rate * f64::from((layout.rows - 2) * layout.block) * triangular::ROW_HEIGHT * spacing;
+    let case::Loading::StrainRate { rate, sponge, .. } = case.loading;
+    let height = f64::from((layout.rows - 2) * layout.block) * triangular::ROW_HEIGHT * spacing;
+    let speed = 0.5 * rate * height;
     let sound = WaveSpeeds::of(material).longitudinal;
     if speed > sound {
         return Err(SetupError::FasterThanSound { speed, sound });
     }
-    let case::Loading::StrainRate { sponge, .. } = case.loading;
     let element_row = f64::from(case.resolution.element) * triangular::ROW_HEIGHT * spacing;
-    let height = f64::from((layout.rows - 2) * layout.block) * triangular::ROW_HEIGHT * spacing;
     if let Some(sponge) = sponge.filter(|sponge| 2.0 * sponge >= height) {
         return Err(SetupError::SpongesMeet { sponge, height });
     }

@@ -90,13 +90,7 @@ impl Frame {
 
     /// A run in this frame. J is that of the advance of its crack in any frame.
     pub fn series<'a>(&self, series: &'a Series) -> Cow<'a, Series> {
-        if *self
-            == (Frame {
-                origin: 0.0,
-                direction: 1.0,
-                ..*self
-            })
-        {
+        if self.origin == 0.0 && !self.is_turned() {
             return Cow::Borrowed(series);
         }
         let mut seen = series.clone();

@@ -11,8 +11,8 @@ use super::crack::Tip;
 use super::regression;
 use super::series::{Series, Setting};
 
-/// The fit, and the innermost ring of the J-integral, begin this many spacings, and this many element edges, ahead of the tip: nearer, the lattice and the
-/// linear elements do not follow the singular field.
+/// The fit, and the innermost ring of the J-integral, begin this many spacings, and this many element edges, ahead of the tip:
+/// nearer, the lattice and the linear elements do not follow the singular field.
 pub const FROM_SPACINGS: f64 = 4.0;
 pub const FROM_ELEMENTS: f64 = 1.0;
 

@@ -26,10 +26,14 @@ pub struct Arguments {
 /// `cgaft study plan FILE`: every case, and the command or the script that computes it.
 pub fn plan(arguments: &Arguments) -> Result<u8, CliError> {
     let OfResults { common, place } = arguments.of.clone();
-    show(&RunArguments {
-        only: arguments.only.clone(),
-        ..RunArguments::planning(common, place, arguments.crew, arguments.on)
-    })
+    let only = arguments.only.clone();
+    show(&RunArguments::planning(
+        common,
+        place,
+        only,
+        arguments.crew,
+        arguments.on,
+    ))
 }
 
 /// What `run` would do with these arguments; changes nothing.

@@ -71,11 +71,11 @@ pub const FRESH: &str = "asked for by --fresh";
 
 impl Arguments {
     /// A plain run, for showing what it would do.
-    pub fn planning(common: Common, place: Place, crew: CrewChoice, on: On) -> Arguments {
+    pub fn planning(common: Common, place: Place, only: Vec<String>, crew: CrewChoice, on: On) -> Arguments {
         Arguments {
             common,
             place,
-            only: Vec::new(),
+            only,
             crew,
             on,
             detach: false,

@@ -37,10 +37,11 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Initiation",
             format!(
-                "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings beyond the notch, or one edge of an element where that is longer, at \
-                 every rate: where it leaves for good the place at which it last stood still while the strain grew by {} %. An \
-                 advance that needs {} % more strain and is slower than {ARREST_SPEED} c_R creeps and is none, and there is none \
-                 under compression, nor is the bond at the very end of the notch alone, if {} % more strain pass before the next. The first bond is that by which the tip first moves.",
+                "The beginning of the advance that takes the tip {ADVANCE_SPACINGS} spacings beyond the notch, or one edge of an \
+                 element where that is longer, at every rate: where it leaves for good the place at which it last stood still \
+                 while the strain grew by {} %. An advance that needs {} % more strain and is slower than {ARREST_SPEED} c_R \
+                 creeps and is no start. The single bond at the end of the notch is none if {} % more strain pass before the \
+                 next. Under compression there is none. The first bond is that by which the tip first moves.",
                 percent(STAND_GROWTH),
                 percent(CREEP_GROWTH),
                 percent(STAND_GROWTH_AT_NOTCH)
@@ -59,7 +60,8 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
             format!(
                 "Slope of the arc length over time by least squares. The window is the time in which a crack at \
                  {WINDOW_SPEED} c_R runs {WINDOW_ADVANCES} times the least advance that is seen on the mesh (stated for \
-                 each case under Provenance), cut off where the tip jumps; a tip that moves back has no speed. c_R is the exact Rayleigh speed of this lattice and cutoff."
+                 each case under Provenance), cut off where the tip jumps; a tip that moves back has no speed. c_R is the exact \
+                 Rayleigh speed of this lattice and cutoff."
             ),
         ),
         (
@@ -136,8 +138,8 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
             "Waves",
             format!(
                 "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves, to a \
-                 tip at rest and (at the running tip) to where it is by then. Measured: wave gauges halfway to the grips and halfway along the notch to its edge record the mean \
-                 velocity v and stress σ of a patch; σ ± ρcv is what a plane wave brings back towards the tip, and is \
+                 tip at rest and (at the running tip) to where it is by then. Measured: wave gauges halfway to the grips and \
+                 halfway along the notch to its edge record the mean velocity v and stress σ of a patch; σ ± ρcv is what a plane wave brings back towards the tip, and is \
                  untouched by what leaves it. Where it bends most, where its mean over the next {} % of the predicted \
                  time lies farthest off its line over the {} % before, the wave is at the gauge, and the way from there \
                  is added. It is known to a probe, and comes late by up to half of the time in which the front rises. \

@@ -72,7 +72,7 @@ pub enum SetupError {
         crack: f64,
         longest: f64,
     },
-    /// Of the crack, and what severs no bond for sure, nm.
+    /// Of the crack, and the distance of two atoms, nm.
     CrackTooShort {
         crack: f64,
         shortest: f64,
@@ -211,7 +211,7 @@ impl SetupError {
             .with(Subject::Length, "of this length"),
             Self::CrackTooShort { crack, shortest } => Refusal::new(
                 Subject::Crack,
-                format!("the crack ({crack} nm) severs no bond: atoms are so far apart that it takes {shortest:.3} nm"),
+                format!("the crack ({crack} nm) is no longer than the distance of two atoms, {shortest:.3} nm"),
                 "make it longer, or leave `crack` out",
             ),
             Self::NotchNotInside {

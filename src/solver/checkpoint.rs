@@ -41,9 +41,8 @@ pub struct Checkpoint {
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,
-    /// Time at which the crack or the damage ahead of it last advanced, ps, the farthest tip and the front of the damage in the frame of
-    /// the crack, nm;
-    /// for the stop at arrest.
+    /// Time at which the crack or the damage ahead of it last advanced, ps, the farthest tip and the front of the damage in the
+    /// frame of the crack, nm; for the stop at arrest.
     pub last_advance: f64,
     pub farthest_tip: f64,
     pub damage_front: f64,

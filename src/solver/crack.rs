@@ -37,7 +37,7 @@ impl Crack {
         let events: Vec<BondEvent> = events.iter().map(|event| self.frame.event(event)).collect();
         let earlier = self.tip();
         self.tracker.follow(&events);
-        if self.tracker.joined(earlier, probe, spur(&self.setting)).is_some() {
+        if !events.is_empty() && self.tracker.joined(earlier, probe, spur(&self.setting)).is_some() {
             self.joins.push(probe);
         }
         damage::front(&self.tracker, &events, &self.setting)

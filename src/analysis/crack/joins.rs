@@ -13,8 +13,8 @@ pub struct Joined {
 }
 
 impl Tracker {
-    /// Whether the foremost tip has gone ahead of an earlier one, on a way that leads beyond it through bonds that had broken before this probe: they
-    /// hung together with the notch then as little as what is shorter than a spur, which is not told.
+    /// Whether the foremost tip has gone ahead of an earlier one, on a way that leads beyond it through bonds that had broken
+    /// before this probe: they hung together with the notch then as little as what is shorter than a spur, which is not told.
     pub fn joined(&self, earlier: Tip, probe: u32, spur: usize) -> Option<Joined> {
         let length = |bonds: usize| bonds as f64 * self.notch.spacing / BONDS_A_SPACING as f64;
         let path = self.main_path();

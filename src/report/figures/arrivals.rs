@@ -85,9 +85,9 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
         table: "crack_speed",
         title: format!("Crack speed of {}, branching and returning waves", case.name()),
         caption: "Speed of the foremost tip over the Rayleigh speed; time counts from the start of the crack. Vertical lines: \
-                  its start, when it leaves its plane and its first branch if it has them, and when waves sent out at the start are back at the running tip by \
-                  their speeds; those that come after the end of the run are not shown. A wave has one colour, a face one kind of line. \
-                  The band is the standard error of the speed."
+                  its start, when it leaves its plane and its first branch if it has them, and when waves \
+                  sent out at the start are back at the running tip by their speeds; those that come after the end of the run \
+                  are not shown. A wave has one colour, a face one kind of line. The band is the standard error of the speed."
             .to_owned(),
         x: "time after the crack starts (ps)".to_owned(),
         y: "crack speed / c_R".to_owned(),

@@ -3,15 +3,11 @@
 use polars::prelude::Column;
 
 use crate::report::Analysed;
-use crate::report::table::Rows;
+use crate::report::table::collect;
 
 /// Where the tip was and stands now, and what parted the two cracks.
 pub fn columns(cases: &[Analysed]) -> Vec<Column> {
-    let joins = |case: &'_ Analysed| case.findings.joins.clone();
-    let rows = cases
-        .iter()
-        .flat_map(|case| joins(case).into_iter().map(move |join| (case, join)));
-    let rows = Rows(rows.collect());
+    let rows = collect(cases, |case| case.findings.joins.iter().map(move |join| (case, join)));
     vec![
         rows.text("case", |row| row.0.name()),
         rows.number("time_ps", |row| row.1.time),

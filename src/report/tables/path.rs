@@ -4,7 +4,7 @@ use polars::prelude::Column;
 
 use crate::analysis::path;
 use crate::report::Analysed;
-use crate::report::table::Rows;
+use crate::report::table::collect;
 
 /// Every bond that broke, its middle and its direction.
 pub fn columns(cases: &[Analysed]) -> Vec<Column> {
@@ -12,10 +12,7 @@ pub fn columns(cases: &[Analysed]) -> Vec<Column> {
         let setting = case.result.setting.as_ref();
         setting.map_or_else(Vec::new, |setting| path::broken_bonds(&case.result.series, setting))
     };
-    let rows = cases
-        .iter()
-        .flat_map(|case| bonds(case).into_iter().map(move |bond| (case, bond)));
-    let rows = Rows(rows.collect());
+    let rows = collect(cases, |case| bonds(case).into_iter().map(move |bond| (case, bond)));
     vec![
         rows.text("case", |row| row.0.name()),
         rows.number("time_ps", |row| row.1.time),

@@ -30,8 +30,8 @@ impl Rings {
         }
     }
 
-    /// The rings of a tip in its specimen, it and the setting in the frame of the crack; `None` where they would leave it or come too near to the tip, and where the
-    /// tip has left the crack plane, so that the faces are no longer along x.
+    /// The rings of a tip in its specimen, it and the setting in the frame of the crack; `None` where they would leave it or
+    /// come too near to the tip, and where the tip has left the crack plane, so that the faces are no longer along x.
     pub fn around(tip: Tip, mesh: &Mesh, frame: &Frame, setting: &Setting) -> Option<Self> {
         if !on_plane(tip, setting) {
             return None;
