@@ -108,7 +108,7 @@ impl Domain {
         Self {
             ranks,
             rank,
-            triangles: cut::equal_shares((0..triangles).map(cost), count),
+            triangles: cut::equal_shares_of_groups(mesh, (0..triangles).map(cost), count),
             atoms: cut::equal_shares((triangles..elements).map(cost), count),
             called: 0,
             heard: 0,
@@ -131,7 +131,10 @@ impl Domain {
                 elements.map(move |element| cost(element) * spent / thought)
             });
             let costs: Vec<f64> = costs.collect();
-            *starts = cut::equal_shares(costs.iter().copied(), count);
+            *starts = match first {
+                0 => cut::equal_shares_of_groups(mesh, costs.into_iter(), count),
+                _ => cut::equal_shares(costs.iter().copied(), count),
+            };
         }
     }
 

@@ -18,9 +18,11 @@ pub mod referee;
 mod regular;
 mod share;
 mod stiffness;
+mod strings;
 mod summation;
 mod sums;
 mod tile;
+mod vector;
 
 pub use affine::{Affine, site_position};
 pub use measure::Measure;
@@ -38,7 +40,6 @@ use bulk::BulkBonds;
 use contact::Contacts;
 use contact::lattice::AtomLattice;
 use interface::{IntactLimit, State};
-use maps::Maps;
 use pulp::Arch;
 use summation::SampledStrings;
 use tile::Tile;
@@ -82,7 +83,6 @@ pub struct Forces {
     states: Vec<State>,
     atoms: AtomLattice,
     contacts: Contacts,
-    maps: Maps,
     tiles: Vec<Tile>,
     limit: IntactLimit,
     /// Interfaces that are not tight, ascending.
@@ -129,13 +129,12 @@ impl Forces {
         let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
         let bulk = BulkBonds::new(&mesh, listed, summation);
         let strings = SampledStrings::new(&interfaces, summation);
-        let maps = Maps::new(&mesh);
         let limit = IntactLimit::new(&material, triangular::next_length(listed));
         let atoms = AtomLattice::new(&mesh, listed, limit.regular);
         let start = Instant::now();
         let domain = Domain::new(ranks, &mesh, share::costs(&mesh, &interfaces));
         let bordering = share::bordering(&domain, &mesh, &interfaces, &atoms);
-        let halo = Halo::ask(&domain, &bordering);
+        let halo = Halo::ask(&domain, &mesh, &bordering);
         let first_cut = start.elapsed();
         let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.triangles());
         let reference = mesh.node_positions();
@@ -156,7 +155,6 @@ impl Forces {
             states,
             atoms,
             contacts: Contacts::default(),
-            maps,
             tiles,
             limit,
             loosened: Vec::new(),

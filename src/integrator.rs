@@ -7,10 +7,10 @@ use std::ops::Range;
 use pulp::Arch;
 use rayon::prelude::*;
 
-use crate::state::State;
+use crate::state::{Coupled, State};
 
-/// Triangles in one parallel task.
-const CHUNK: usize = 1024;
+/// Nodes in one parallel task.
+const CHUNK: usize = 4096;
 
 /// Advances the velocities of ranges of nodes by the forces over a time.
 ///
@@ -30,74 +30,114 @@ pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], kicks: u32, tim
         .for_each(|nodes| advance(state, nodes, kicks, 0.5 * time, Some(time)));
 }
 
-/// A range begins with the first node of an element.
+/// A range begins and ends with whole groups of triangles.
 fn advance(state: &mut State, nodes: &Range<usize>, kicks: u32, kick: f64, drift: Option<f64>) {
     let State {
         position,
         velocity,
         force,
         mobility,
-        coupling,
+        coupled,
         ..
     } = state;
-    let coupling = &coupling[coupling.len().min(nodes.start / 3)..];
-    let [position_x, position_y] = position.each_mut().map(|plane| &mut plane[nodes.clone()]);
-    let [velocity_x, velocity_y] = velocity.each_mut().map(|plane| &mut plane[nodes.clone()]);
-    let [force_x, force_y] = force.each_ref().map(|plane| &plane[nodes.clone()]);
-    let [mobility_x, mobility_y] = mobility.each_ref().map(|plane| &plane[nodes.clone()]);
-    let along_x = tasks(position_x, velocity_x, force_x, mobility_x);
-    let along_y = tasks(position_y, velocity_y, force_y, mobility_y);
+    let coupled = coupled.iter().filter(|coupled| nodes.contains(&coupled.nodes.start));
+    let parts: Vec<Part> = match coupled.clone().next() {
+        None => nodes
+            .clone()
+            .step_by(CHUNK)
+            .map(|from| Part::lumped(from..nodes.end.min(from + CHUNK)))
+            .collect(),
+        Some(_) => coupled.map(Part::coupled).collect(),
+    };
+    let planes = |axis: usize, position, velocity| {
+        let [mut position, mut velocity]: [&mut [f64]; 2] = [position, velocity];
+        let mut at = 0;
+        let parts = parts.iter().map(|part| {
+            let [position, velocity] = [&mut position, &mut velocity].map(|plane| {
+                let own = plane
+                    .split_off_mut(..part.nodes.end - at)
+                    .expect("parts lie one after the other");
+                &mut own[part.nodes.start - at..]
+            });
+            at = part.nodes.end;
+            Motion {
+                position,
+                velocity,
+                force: &force[axis][part.nodes.clone()],
+                mobility: &mobility[axis][part.nodes.clone()],
+                share: part.share,
+            }
+        });
+        parts.collect::<Vec<Motion>>()
+    };
+    let [position_x, position_y] = position;
+    let [velocity_x, velocity_y] = velocity;
     // Both axes at once, so that threads wait for each other only once.
-    along_x.chain(along_y).for_each(|(chunk, (moved, (force, mobility)))| {
-        let (position, velocity) = moved;
-        let first = coupling.len().min(chunk * CHUNK);
-        let coupling = &coupling[first..coupling.len().min(first + position.len() / 3)];
-        let nodes = 3 * coupling.len();
+    let mut motions = planes(0, position_x, velocity_x);
+    motions.extend(planes(1, position_y, velocity_y));
+    motions.into_par_iter().for_each(|mut motion| {
         Arch::new().dispatch(|| {
             for _ in 0..kicks {
-                kick_coupled(
-                    &mut velocity[..nodes],
-                    &force[..nodes],
-                    &mobility[..nodes],
-                    coupling,
-                    kick,
-                );
-                let single = velocity[nodes..]
-                    .iter_mut()
-                    .zip(&force[nodes..])
-                    .zip(&mobility[nodes..]);
-                single.for_each(|((v, f), mobility)| *v += kick * mobility * f);
+                motion.kick(kick);
             }
             if let Some(time) = drift {
-                position.iter_mut().zip(&*velocity).for_each(|(x, v)| *x += time * v);
+                motion.drift(time);
             }
         });
     });
 }
 
-type Task<'a> = (usize, ((&'a mut [f64], &'a mut [f64]), (&'a [f64], &'a [f64])));
+/// Nodes that one thread moves.
+struct Part {
+    nodes: Range<usize>,
+    /// Of triangles with coupled masses.
+    share: Option<f64>,
+}
 
-/// The motion along one axis, nodes in tasks.
-fn tasks<'a>(
+impl Part {
+    fn lumped(nodes: Range<usize>) -> Self {
+        Self { nodes, share: None }
+    }
+
+    fn coupled(coupled: &Coupled) -> Self {
+        Self {
+            nodes: coupled.nodes.clone(),
+            share: Some(coupled.share),
+        }
+    }
+}
+
+/// Nodes in motion along one axis.
+struct Motion<'a> {
     position: &'a mut [f64],
     velocity: &'a mut [f64],
     force: &'a [f64],
     mobility: &'a [f64],
-) -> impl IndexedParallelIterator<Item = Task<'a>> {
-    let positions = position.par_chunks_mut(3 * CHUNK);
-    let velocities = velocity.par_chunks_mut(3 * CHUNK);
-    let forces = force.par_chunks(3 * CHUNK);
-    let mobilities = mobility.par_chunks(3 * CHUNK);
-    positions.zip(velocities).zip(forces.zip(mobilities)).enumerate()
+    share: Option<f64>,
 }
 
-/// Triangles whose nodes have coupled masses.
-#[inline(always)]
-fn kick_coupled(velocity: &mut [f64], force: &[f64], mobility: &[f64], coupling: &[f64], time: f64) {
-    for (triangle, share) in coupling.iter().enumerate() {
-        let nodes = 3 * triangle..3 * triangle + 3;
-        let shared = share * force[nodes.clone()].iter().sum::<f64>();
-        nodes.for_each(|node| velocity[node] += time * mobility[node] * (force[node] - shared));
+impl Motion<'_> {
+    #[inline(always)]
+    fn kick(&mut self, time: f64) {
+        let Some(share) = self.share else {
+            let nodes = self.velocity.iter_mut().zip(self.force).zip(self.mobility);
+            nodes.for_each(|((velocity, force), mobility)| *velocity += time * mobility * force);
+            return;
+        };
+        let count = self.force.len() / 3;
+        for triangle in 0..count {
+            let nodes = [triangle, triangle + count, triangle + 2 * count];
+            let shared = share * nodes.map(|node| self.force[node]).iter().sum::<f64>();
+            for node in nodes {
+                self.velocity[node] += time * self.mobility[node] * (self.force[node] - shared);
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn drift(&mut self, time: f64) {
+        let nodes = self.position.iter_mut().zip(&*self.velocity);
+        nodes.for_each(|(position, velocity)| *position += time * velocity);
     }
 }
 

@@ -31,6 +31,12 @@ impl<S: Simd> Lanes<S> {
         Self { simd, value }
     }
 
+    /// The instructions that the processor has.
+    #[inline(always)]
+    pub fn simd(self) -> S {
+        self.simd
+    }
+
     /// What a function of the lane's number gives; slower than arithmetic.
     #[inline(always)]
     pub fn each(simd: S, of_lane: impl FnMut(usize) -> f64) -> Self {
@@ -42,6 +48,16 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub fn load(simd: S, plane: &[f64], from: usize) -> Self {
         let value = S::as_simd_f64s(&plane[from..from + Self::COUNT]).0[0];
+        Self { simd, value }
+    }
+
+    /// So many numbers from a place of a plane on, and zeros after them.
+    #[inline(always)]
+    pub fn load_some(simd: S, plane: &[f64], from: usize, count: usize) -> Self {
+        if count >= Self::COUNT {
+            return Self::load(simd, plane, from);
+        }
+        let value = simd.partial_load_f64s(&plane[from..from + count]);
         Self { simd, value }
     }
 
@@ -74,6 +90,20 @@ impl<S: Simd> Lanes<S> {
     #[inline(always)]
     pub fn times_add(self, factor: f64, term: Self) -> Self {
         self.mul_add(Self::all(self.simd, factor), term)
+    }
+
+    /// term - self * factor, rounded once.
+    #[inline(always)]
+    pub fn negative_mul_add(self, factor: Self, term: Self) -> Self {
+        let negative = self.simd.neg_f64s(self.value);
+        let value = self.simd.mul_add_f64s(negative, factor.value, term.value);
+        Self { value, ..self }
+    }
+
+    #[inline(always)]
+    pub fn absolute(self) -> Self {
+        let value = self.simd.abs_f64s(self.value);
+        Self { value, ..self }
     }
 
     /// 1 / self

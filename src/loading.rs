@@ -48,8 +48,7 @@ impl Stretching {
         for (number, element) in mesh.elements.iter().enumerate() {
             let side = mesh.grip_of(element);
             if side != 0 {
-                let first = mesh.first_node(number) as u32;
-                nodes[usize::from(side > 0)].extend(first..first + element.node_count() as u32);
+                nodes[usize::from(side > 0)].extend(mesh.nodes_of(number).map(|node| node as u32));
             }
         }
         let [low, high] = mesh.grip_edges();

@@ -1,18 +1,23 @@
 //! Specimens: which lattice sites there are, which element carries each, and which elements are neighbours.
 //!
-//! A mesh knows no forces. Elements share no nodes: triangles come first, three nodes each, then the atoms, one each.
+//! A mesh knows no forces. Elements share no nodes: triangles come first, three nodes each, then the atoms, one each. How
+//! the nodes of triangles are numbered is said in [`groups`].
 
 pub mod cut;
 pub mod element;
+pub mod groups;
 pub mod interfaces;
 mod owners;
 pub mod region;
 pub mod sites;
 mod tiling;
 
+use std::collections::HashMap;
+
 use crate::lattice::triangular;
 use cut::{Crack, Cut};
 use element::Element;
+use groups::Groups;
 use owners::Owners;
 use region::Region;
 use sites::{Layout, SiteSet};
@@ -50,6 +55,7 @@ pub struct Mesh {
     pub elements: Vec<Element>,
     /// Number of triangles among the elements.
     pub triangles: usize,
+    pub groups: Groups,
     owners: Owners,
     pub cut: Option<Cut>,
     /// Lattice spacing, nm.
@@ -68,10 +74,12 @@ impl Mesh {
         let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
         let owners = Owners::new(&sites, &elements, triangles);
+        let groups = Groups::new(&elements[..triangles]);
         let mesh = Self {
             sites,
             elements,
             triangles,
+            groups,
             owners,
             cut: None,
             spacing: plan.spacing,
@@ -87,23 +95,42 @@ impl Mesh {
     }
 
     pub fn node_count(&self) -> usize {
-        self.first_node(self.elements.len())
+        2 * self.triangles + self.elements.len()
     }
 
-    /// Number of an element's first node.
+    /// Number of the node at a corner of an element; an atom is its only one.
     #[inline(always)]
-    pub fn first_node(&self, element: usize) -> usize {
-        if element <= self.triangles {
-            3 * element
+    pub fn node(&self, element: usize, corner: usize) -> usize {
+        if element < self.triangles {
+            self.groups.of(element).node(element, corner)
         } else {
             2 * self.triangles + element
         }
     }
 
+    /// Numbers of an element's nodes, corner by corner.
+    pub fn nodes_of(&self, element: usize) -> impl Iterator<Item = usize> + Clone + use<> {
+        let first = self.node(element, 0);
+        let (count, step) = match element < self.triangles {
+            true => (3, self.groups.of(element).len()),
+            false => (1, 1),
+        };
+        (0..count).map(move |corner| first + corner * step)
+    }
+
+    /// Numbers of a triangle's nodes.
+    #[inline(always)]
+    pub fn corners_of(&self, triangle: usize) -> [usize; 3] {
+        let group = self.groups.of(triangle);
+        [0, 1, 2].map(|corner| group.node(triangle, corner))
+    }
+
     /// The element that a node belongs to.
     pub fn element_of_node(&self, node: usize) -> usize {
-        node.checked_sub(3 * self.triangles)
-            .map_or(node / 3, |atom| self.triangles + atom)
+        match node.checked_sub(3 * self.triangles) {
+            None => self.groups.triangle_of_node(node),
+            Some(atom) => self.triangles + atom,
+        }
     }
 
     /// Reference position of a site, nm, in lattice coordinates.
@@ -113,36 +140,31 @@ impl Mesh {
 
     /// Reference positions of the nodes, x and y, nm.
     pub fn node_positions(&self) -> [Vec<f64>; 2] {
-        let corners = self.elements.iter().flat_map(Element::corners);
-        let [mut x, mut y] = [
-            Vec::with_capacity(self.node_count()),
-            Vec::with_capacity(self.node_count()),
-        ];
-        for corner in corners {
-            let position = self.reference(corner);
-            x.push(position[0]);
-            y.push(position[1]);
+        let [mut x, mut y] = [0, 1].map(|_| vec![0.0; self.node_count()]);
+        for (number, element) in self.elements.iter().enumerate() {
+            for (node, corner) in self.nodes_of(number).zip(element.corners()) {
+                [x[node], y[node]] = self.reference(corner);
+            }
         }
         [x, y]
     }
 
     /// Lumped mass of every node in site masses.
     pub fn lumped_masses(&self) -> Vec<f64> {
-        let each = self.elements.iter();
-        each.flat_map(|element| std::iter::repeat_n(element.lumped_mass(), element.node_count()))
-            .collect()
+        let mut masses = vec![1.0; self.node_count()];
+        for group in self.groups.all() {
+            masses[group.nodes()].fill(self.elements[group.elements.start].lumped_mass());
+        }
+        masses
     }
 
-    /// What the consistent mass matrix of each triangle couples two nodes by, over the lumped mass of one.
+    /// For each group of triangles what the consistent mass matrix couples two nodes of one by, over the lumped mass of one.
     pub fn mass_couplings(&self) -> Vec<f64> {
-        let mut of_size: Vec<(i32, f64)> = Vec::new();
-        let triangles = self.elements[..self.triangles].iter();
-        let couplings = triangles.map(|element| match of_size.iter().find(|known| known.0 == element.size) {
-            Some(&(_, coupling)) => coupling,
-            None => {
-                of_size.push((element.size, element.mass_coupling()));
-                of_size[of_size.len() - 1].1
-            }
+        let mut of_size: HashMap<i32, f64> = HashMap::new();
+        let groups = self.groups.all().iter();
+        let couplings = groups.map(|group| {
+            let element = &self.elements[group.elements.start];
+            *of_size.entry(group.size).or_insert_with(|| element.mass_coupling())
         });
         couplings.collect()
     }

@@ -197,14 +197,13 @@ fn compliance(forces: &Forces, bounds: &[f64], mobility: &Planes) -> Planes {
     let softest = softest.fold(f64::INFINITY, f64::min);
     let mesh = forces.mesh();
     let mut compliance = [vec![0.0; mesh.node_count()], vec![0.0; mesh.node_count()]];
-    for (element, shape) in mesh.elements.iter().enumerate() {
+    for element in 0..mesh.elements.len() {
         let bound = if bounds[element] > 0.0 {
             bounds[element]
         } else {
             softest
         };
-        let first = mesh.first_node(element);
-        for node in first..first + shape.node_count() {
+        for node in mesh.nodes_of(element) {
             for axis in 0..2 {
                 if mobility[axis][node] > 0.0 {
                     compliance[axis][node] = 1.0 / bound;

@@ -130,8 +130,7 @@ impl Solver {
             .collect();
         let mut state = State::at_rest(mesh.node_positions(), masses);
         if settings.consistent_mass > 0.0 {
-            let couplings = mesh.mass_couplings().into_iter();
-            state.couple_masses(couplings.map(|share| settings.consistent_mass * share).collect());
+            state.couple_masses(&mesh, settings.consistent_mass);
         }
         loading.pre_stretch(&mesh, &mut state);
         loading.start(&mesh, &mut state);

@@ -3,6 +3,7 @@
 use std::ops::Range;
 
 use crate::lanes;
+use crate::mesh::Mesh;
 
 /// Positions, velocities, forces and masses of the nodes, a plane (x, y) each. Units nm, ps, eV.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,12 +13,37 @@ pub struct State {
     pub force: [Vec<f64>; 2],
     /// Lumped mass, the sum of a row of the mass matrix, eV ps^2/nm^2.
     pub mass: Vec<f64>,
-    /// For every triangle, whose nodes come first, the mass that couples two of its nodes over the lumped mass of one;
-    /// empty where all masses are lumped. The block of a triangle is mass ((1 - 3 c) I + c 1 1^T).
-    pub coupling: Vec<f64>,
+    /// The triangles whose masses are coupled, ascending; empty where all masses are lumped.
+    pub coupled: Vec<Coupled>,
     /// What a force is multiplied by to give the acceleration: the inverse of the mass, and zero where the motion is
     /// prescribed. With coupled masses the mean force of the triangle acts apart: see [`crate::integrator::kick`].
     pub mobility: [Vec<f64>; 2],
+}
+
+/// Triangles side by side whose mass matrix is not lumped: the block of each is mass ((1 - 3 c) I + c 1 1^T), c the share.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Coupled {
+    /// Nodes of all of them: first corners, second corners, third corners.
+    pub nodes: Range<usize>,
+    /// The mass that couples two nodes over the lumped mass of one.
+    pub share: f64,
+}
+
+impl Coupled {
+    /// How many triangles there are.
+    pub fn len(&self) -> usize {
+        self.nodes.len() / 3
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
+    /// The three nodes of the triangle that has this one.
+    fn beside(&self, node: usize) -> [usize; 3] {
+        let first = self.nodes.start + (node - self.nodes.start) % self.len();
+        [0, 1, 2].map(|corner| first + corner * self.len())
+    }
 }
 
 impl State {
@@ -31,20 +57,38 @@ impl State {
             velocity: zeros(),
             force: zeros(),
             mass,
-            coupling: Vec::new(),
+            coupled: Vec::new(),
             mobility: [free.clone(), free],
         }
     }
 
-    /// Couples the masses of each triangle's nodes by this share of the lumped mass of one. All nodes become free.
-    pub fn couple_masses(&mut self, coupling: Vec<f64>) {
-        for (triangle, share) in coupling.iter().enumerate() {
-            for node in 3 * triangle..3 * triangle + 3 {
+    /// Gives the triangles of a mesh this share of the consistent mass matrix; the rest of it stays lumped. All nodes
+    /// become free.
+    pub fn couple_masses(&mut self, mesh: &Mesh, consistent: f64) {
+        let groups = mesh.groups.all().iter().zip(mesh.mass_couplings());
+        let coupled = groups.map(|(group, coupling)| Coupled {
+            nodes: group.nodes(),
+            share: consistent * coupling,
+        });
+        self.coupled = coupled.collect();
+        for Coupled { nodes, share } in &self.coupled {
+            for node in nodes.clone() {
                 let mobility = 1.0 / (self.mass[node] * (1.0 - 3.0 * share));
                 self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
             }
         }
-        self.coupling = coupling;
+    }
+
+    /// The triangles with coupled masses that a node belongs to.
+    fn coupled_at(&self, node: usize) -> Option<&Coupled> {
+        let after = self.coupled.partition_point(|coupled| coupled.nodes.start <= node);
+        let coupled = self.coupled.get(after.checked_sub(1)?)?;
+        coupled.nodes.contains(&node).then_some(coupled)
+    }
+
+    /// The mass that couples a node to another of its triangle, over the lumped mass of one; zero where it is lumped.
+    pub fn coupling_of(&self, node: usize) -> f64 {
+        self.coupled_at(node).map_or(0.0, |coupled| coupled.share)
     }
 
     pub fn nodes(&self) -> usize {
@@ -65,20 +109,14 @@ impl State {
     /// The part of a node: with coupled masses c m (sum v)^2, which the nodes of a triangle share, is c m v (sum v) of each.
     #[inline(always)]
     pub fn kinetic_energy_of(&self, node: usize) -> f64 {
-        if self.coupling.is_empty() {
-            let [x, y] = self.velocity.each_ref().map(|plane| plane[node]);
-            return 0.5 * self.mass[node] * (x * x + y * y);
-        }
-        let triangle = node / 3;
-        let share = self.coupling.get(triangle);
-        let squared = self.velocity.iter().map(|plane| {
-            let speed = plane[node];
-            let coupled = share.map_or(0.0, |share| {
-                let sum: f64 = plane[3 * triangle..3 * triangle + 3].iter().sum();
-                share * (sum - 3.0 * speed)
-            });
-            speed * (speed + coupled)
-        });
-        0.5 * self.mass[node] * squared.sum::<f64>()
+        let squared = match self.coupled_at(node) {
+            None => self.velocity.each_ref().map(|plane| plane[node] * plane[node]),
+            Some(coupled) => self.velocity.each_ref().map(|plane| {
+                let speed = plane[node];
+                let sum: f64 = coupled.beside(node).into_iter().map(|node| plane[node]).sum();
+                speed * (speed + coupled.share * (sum - 3.0 * speed))
+            }),
+        };
+        0.5 * self.mass[node] * (squared[0] + squared[1])
     }
 }

@@ -1,5 +1,7 @@
 //! Where to cut.
 
+use crate::mesh::Mesh;
+
 /// Starts of the parts of a sequence that all cost about the same, and its length at the end: an item belongs to the part in
 /// which its middle lies, so that no part is farther from its share than an item.
 pub fn equal_shares(costs: impl Iterator<Item = f64> + Clone, parts: usize) -> Vec<usize> {
@@ -18,6 +20,18 @@ pub fn equal_shares(costs: impl Iterator<Item = f64> + Clone, parts: usize) -> V
     }
     starts.resize(parts + 1, length);
     starts
+}
+
+/// The same for the triangles of a mesh, whose groups stay whole: the nodes of a part follow each other.
+pub fn equal_shares_of_groups(mesh: &Mesh, mut costs: impl Iterator<Item = f64>, parts: usize) -> Vec<usize> {
+    let groups = mesh.groups.all();
+    let of_groups: Vec<f64> = groups
+        .iter()
+        .map(|group| costs.by_ref().take(group.len()).sum())
+        .collect();
+    let starts = equal_shares(of_groups.iter().copied(), parts).into_iter();
+    let start = |group: usize| groups.get(group).map_or(mesh.triangles, |group| group.elements.start);
+    starts.map(start).collect()
 }
 
 #[cfg(test)]

@@ -3,6 +3,8 @@
 use std::ops::Range;
 
 use super::Domain;
+use crate::mesh::Mesh;
+use crate::mesh::groups::Group;
 
 /// Which elements some ranks know beside their own, and the parcels in which others tell them of these.
 ///
@@ -37,24 +39,20 @@ pub enum Of {
 
 impl Halo {
     /// Asks the other ranks for these elements of theirs, ascending. All ranks must do so at once.
-    pub fn ask(domain: &Domain, needed: &[u32]) -> Self {
+    pub fn ask(domain: &Domain, mesh: &Mesh, needed: &[u32]) -> Self {
         let asked: Vec<Vec<u32>> = by_owner(domain, needed);
         let wanted = domain.ranks.swap(&asked);
         let parcels = |lists: &[Vec<u32>]| {
             let parcels = lists.iter().enumerate().filter(|(_, list)| !list.is_empty());
-            parcels.map(|(peer, list)| Parcel::new(domain, peer, list)).collect()
+            parcels
+                .map(|(peer, list)| Parcel::new(domain, mesh, peer, list))
+                .collect()
         };
         Self {
             outgoing: parcels(&wanted),
             incoming: parcels(&asked),
             elements: ranges(domain, needed),
         }
-    }
-
-    /// Triangles of others whose positions arrive.
-    pub fn triangles(&self, domain: &Domain) -> impl Iterator<Item = Range<usize>> {
-        let count = domain.triangle_count();
-        self.elements.iter().filter(move |range| range.end <= count).cloned()
     }
 
     /// Atoms of others whose positions arrive, counted from 0.
@@ -97,14 +95,11 @@ impl Halo {
 }
 
 impl Parcel {
-    fn new(domain: &Domain, peer: usize, elements: &[u32]) -> Self {
+    fn new(domain: &Domain, mesh: &Mesh, peer: usize, elements: &[u32]) -> Self {
         let elements = ranges(domain, elements);
         Self {
             peer,
-            nodes: elements
-                .iter()
-                .map(|elements| domain.nodes_of(elements.clone()))
-                .collect(),
+            nodes: elements.iter().flat_map(|elements| nodes_of(mesh, elements)).collect(),
             elements,
             numbers: Vec::new(),
         }
@@ -143,6 +138,20 @@ impl Parcel {
             }
         }
     }
+}
+
+/// The nodes of consecutive elements, all triangles or all atoms: corner by corner of each group.
+fn nodes_of(mesh: &Mesh, elements: &Range<usize>) -> Vec<Range<usize>> {
+    if elements.start >= mesh.triangles {
+        let first = mesh.node(elements.start, 0);
+        return std::iter::once(first..first + elements.len()).collect();
+    }
+    let groups = mesh.groups.number_of(elements.start)..=mesh.groups.number_of(elements.end - 1);
+    let of_group = |group: &Group| {
+        let part = elements.start.max(group.elements.start)..elements.end.min(group.elements.end);
+        [0, 1, 2].map(|corner| group.node(part.start, corner)..group.node(part.end - 1, corner) + 1)
+    };
+    mesh.groups.all()[groups].iter().flat_map(of_group).collect()
 }
 
 /// Ascending elements, sorted by the rank that computes them.

@@ -1,6 +1,5 @@
 use super::Planes;
 use crate::mesh::Mesh;
-use crate::mesh::element::Element;
 
 /// The affine map by which a triangle carries its sites: x(p, q) = origin + p along[0] + q along[1].
 /// [Deng2011] Eq. (3-27) with area coordinates.
@@ -12,10 +11,11 @@ pub struct Affine {
 
 impl Affine {
     #[inline(always)]
-    pub fn of_triangle(size: i32, first_node: usize, position: &Planes) -> Self {
-        let corner = |k: usize| [position[0][first_node + k], position[1][first_node + k]];
-        let [a, b, c] = [corner(0), corner(1), corner(2)];
-        let edge = 1.0 / f64::from(size - 1);
+    pub fn of_triangle(mesh: &Mesh, triangle: usize, position: &Planes) -> Self {
+        let [a, b, c] = mesh
+            .corners_of(triangle)
+            .map(|node| [position[0][node], position[1][node]]);
+        let edge = 1.0 / f64::from(mesh.elements[triangle].size - 1);
         let along = [
             [(b[0] - a[0]) * edge, (b[1] - a[1]) * edge],
             [(c[0] - a[0]) * edge, (c[1] - a[1]) * edge],
@@ -73,13 +73,11 @@ pub fn smallest_stretch(gradient: [[f64; 2]; 2]) -> f64 {
 
 /// Current position of a site of an element.
 pub fn site_position(mesh: &Mesh, element: usize, local: [i32; 2], position: &Planes) -> [f64; 2] {
-    let shape: &Element = &mesh.elements[element];
-    let first = mesh.first_node(element);
-    if shape.is_atom() {
-        [position[0][first], position[1][first]]
-    } else {
-        Affine::of_triangle(shape.size, first, position).at(local)
+    if element < mesh.triangles {
+        return Affine::of_triangle(mesh, element, position).at(local);
     }
+    let node = mesh.node(element, 0);
+    [position[0][node], position[1][node]]
 }
 
 #[cfg(test)]

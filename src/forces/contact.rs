@@ -21,7 +21,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::affine::site_position;
-use super::measure::{Measure, PARTS, in_parts};
+use super::measure::{Measure, PARTS, in_lengths, in_parts};
 use super::regular::Regular;
 use super::{CHUNK, Planes};
 use crate::domain::{Domain, Halo};
@@ -172,15 +172,21 @@ impl Contacts {
             return;
         }
         let mine = domain.triangles();
+        let groups = mesh.groups.of_range(&mine);
         let [nodes, _] = domain.nodes();
         let [x, y, held @ ..] = &self.of_carried;
         for (plane, of_site) in force.iter_mut().zip([x, y]) {
-            let chunks = plane[nodes.clone()].par_chunks_mut(3 * CHUNK).enumerate();
-            chunks.for_each(|(chunk, force)| {
-                let from = mine.start + chunk * CHUNK;
-                for (site, carrier) in self.carried_by(from..from + force.len() / 3) {
+            let lengths = groups.iter().map(|group| group.nodes().len());
+            let parts: Vec<_> = groups
+                .iter()
+                .zip(in_lengths([&mut plane[nodes.clone()]], lengths))
+                .collect();
+            parts.into_par_iter().for_each(|(group, [force])| {
+                for (site, carrier) in self.carried_by(group.elements.clone()) {
                     let weights = mesh.elements[carrier].shape_functions(self.local(site));
-                    (0..3).for_each(|node| force[3 * (carrier - from) + node] += weights[node] * of_site[site]);
+                    for (corner, weight) in weights.into_iter().enumerate() {
+                        force[group.node(carrier, corner) - group.nodes().start] += weight * of_site[site];
+                    }
                 }
             });
         }

@@ -4,16 +4,14 @@ use pulp::Simd;
 
 use super::Planes;
 use super::affine::{Affine, smallest_stretch};
-use super::maps::{MapLanes, squared};
-use super::measure::{Count, PARTS};
+use super::maps::MapLanes;
 use super::regular::Regular;
-use super::summation::{Sample, SampledString};
+use super::summation::SampledString;
 use crate::lanes::{Lanes, Mask};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
 use crate::mesh::interfaces::{BondString, Interfaces};
-use crate::potential::{CutPotential, PairShape};
 
 /// How two neighbouring triangles stand to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -91,8 +89,8 @@ impl<'a> Pair<'a> {
         Self {
             first,
             second,
-            first_map: Affine::of_triangle(first.size, mesh.first_node(a), position),
-            second_map: Affine::of_triangle(second.size, mesh.first_node(b), position),
+            first_map: Affine::of_triangle(mesh, a, position),
+            second_map: Affine::of_triangle(mesh, b, position),
             anchors: interfaces.kinds[pair.kind as usize].anchors,
         }
     }
@@ -165,93 +163,6 @@ impl<'a> Pair<'a> {
     }
 }
 
-/// Sum of the bond forces of a string, x and y, their first moment with the place along it, and what its bonds hold.
-pub struct StringSum<L: Simd, const MEASURED: bool> {
-    pub force: [Lanes<L>; 2],
-    pub moment: [Lanes<L>; 2],
-    held: Count<L, MEASURED>,
-}
-
-/// Sums all strings between some pairs of triangles. Returns whether all nearest-neighbour bonds among them are as in a
-/// regular lattice, and what they hold if it is to be `MEASURED`.
-#[inline(always)]
-pub fn sum_strings<S: PairShape, L: Simd, const MEASURED: bool>(
-    simd: L,
-    law: &CutPotential<S>,
-    limit: &IntactLimit,
-    [first, second]: &[MapLanes<L>; 2],
-    strings: &[SampledString],
-    mut store: impl FnMut(usize, &StringSum<L, MEASURED>),
-) -> (Mask<L>, [Lanes<L>; PARTS]) {
-    let mut regular = Mask::all(simd, limit.regular.is_some());
-    let mut held = [Lanes::all(simd, 0.0); PARTS];
-    for (number, sampled) in strings.iter().enumerate() {
-        let [start, step] = bonds_along(sampled, [first, second]);
-        let length = sampled.length;
-        let squared_bend = squared(step) * (length * length);
-        if let (true, Some(test)) = (sampled.is_nearest, &limit.regular) {
-            let end = [step[0].times_add(length, start[0]), step[1].times_add(length, start[1])];
-            // The squared length along a string is a parabola that dips by a quarter of the squared bend at most.
-            let dip = squared_bend * 0.25;
-            let [one, other] = [squared(start), squared(end)];
-            regular = regular
-                .and(test.holds(one - dip, one))
-                .and(test.holds(other - dip, other));
-        }
-        let sum = match sampled.hardly_bent(limit.spacing) {
-            None if sampled.every_bond => sum_bonds(simd, law, start, step, sampled.string.count),
-            None => sum_samples(simd, law, start, step, &sampled.samples),
-            Some(limit) => sum_sampled(simd, law, start, step, sampled, squared_bend.is_below(limit)),
-        };
-        if MEASURED {
-            sum.add_to(&mut held, start, step);
-        }
-        store(number, &sum);
-    }
-    (regular, held)
-}
-
-impl<L: Simd, const MEASURED: bool> StringSum<L, MEASURED> {
-    #[inline(always)]
-    fn new(simd: L) -> Self {
-        Self {
-            force: [Lanes::all(simd, 0.0); 2],
-            moment: [Lanes::all(simd, 0.0); 2],
-            held: Count::new(simd),
-        }
-    }
-
-    /// Bonds are start + t step, so that the sum of force and bond, component by component, follows from the sum of
-    /// forces and their moment.
-    #[inline(always)]
-    fn add_to(&self, [energy, pairs, xx, yy, xy]: &mut [Lanes<L>; PARTS], start: [Lanes<L>; 2], step: [Lanes<L>; 2]) {
-        let product = |i: usize, j: usize, before: Lanes<L>| {
-            self.force[i].mul_add(start[j], self.moment[i].mul_add(step[j], before))
-        };
-        *energy = *energy + self.held.energy;
-        *pairs = *pairs + self.held.pairs;
-        *xx = product(0, 0, *xx);
-        *yy = product(1, 1, *yy);
-        *xy = product(0, 1, *xy);
-    }
-
-    /// This where the mask says yes, the other elsewhere.
-    #[inline(always)]
-    fn where_or(&self, mask: Mask<L>, other: &Self) -> Self {
-        let pick = |one: &[Lanes<L>; 2], other: &[Lanes<L>; 2]| {
-            [one[0].where_or(mask, other[0]), one[1].where_or(mask, other[1])]
-        };
-        Self {
-            force: pick(&self.force, &other.force),
-            moment: pick(&self.moment, &other.moment),
-            held: Count {
-                energy: self.held.energy.where_or(mask, other.held.energy),
-                pairs: self.held.pairs.where_or(mask, other.held.pairs),
-            },
-        }
-    }
-}
-
 /// The first bond vector of a string between some pairs of triangles, and its change from bond to bond.
 #[inline(always)]
 pub fn bonds_along<L: Simd>(sampled: &SampledString, [first, second]: [&MapLanes<L>; 2]) -> [[Lanes<L>; 2]; 2] {
@@ -259,69 +170,4 @@ pub fn bonds_along<L: Simd>(sampled: &SampledString, [first, second]: [&MapLanes
     let [a, b] = [first.at(one.start), second.at(other.start)];
     let [da, db] = [first.vector(one.step), second.vector(other.step)];
     [[b[0] - a[0], b[1] - a[1]], [db[0] - da[0], db[1] - da[1]]]
-}
-
-/// The sums of strings that are looked at in few places where they are hardly bent.
-#[inline(always)]
-fn sum_sampled<S: PairShape, L: Simd, const MEASURED: bool>(
-    simd: L,
-    law: &CutPotential<S>,
-    start: [Lanes<L>; 2],
-    step: [Lanes<L>; 2],
-    sampled: &SampledString,
-    hardly_bent: Mask<L>,
-) -> StringSum<L, MEASURED> {
-    let of_few = sum_samples(simd, law, start, step, &sampled.few);
-    if hardly_bent.every() {
-        return of_few;
-    }
-    let of_all = sum_bonds(simd, law, start, step, sampled.string.count);
-    of_few.where_or(hardly_bent, &of_all)
-}
-
-#[inline(always)]
-fn sum_samples<S: PairShape, L: Simd, const MEASURED: bool>(
-    simd: L,
-    law: &CutPotential<S>,
-    start: [Lanes<L>; 2],
-    step: [Lanes<L>; 2],
-    samples: &[Sample],
-) -> StringSum<L, MEASURED> {
-    let mut sum = StringSum::new(simd);
-    for &Sample { at, weight } in samples {
-        let [x, y] = [step[0].times_add(at, start[0]), step[1].times_add(at, start[1])];
-        let slopes = sum.held.slopes(simd, law, squared([x, y]), Lanes::all(simd, weight));
-        let pull = slopes * weight;
-        let lever = pull * at;
-        sum.force = [sum.force[0] + pull * x, sum.force[1] + pull * y];
-        sum.moment = [lever.mul_add(x, sum.moment[0]), lever.mul_add(y, sum.moment[1])];
-    }
-    sum
-}
-
-/// The sums over all bonds, each counted once. From the last to the first the moment is the sum of the sums so far, which
-/// takes additions instead of products.
-#[inline(always)]
-fn sum_bonds<S: PairShape, L: Simd, const MEASURED: bool>(
-    simd: L,
-    law: &CutPotential<S>,
-    start: [Lanes<L>; 2],
-    step: [Lanes<L>; 2],
-    count: i32,
-) -> StringSum<L, MEASURED> {
-    let mut sum = StringSum::new(simd);
-    let one = Lanes::all(simd, 1.0);
-    let last = f64::from(count - 1);
-    let [mut x, mut y] = [step[0].times_add(last, start[0]), step[1].times_add(last, start[1])];
-    for _ in 1..count {
-        let pull = sum.held.slopes(simd, law, squared([x, y]), one);
-        sum.force = [sum.force[0] + pull * x, sum.force[1] + pull * y];
-        sum.moment = [sum.moment[0] + sum.force[0], sum.moment[1] + sum.force[1]];
-        x = x - step[0];
-        y = y - step[1];
-    }
-    let [x, y] = start;
-    let pull = sum.held.slopes(simd, law, squared([x, y]), one);
-    sum.force = [sum.force[0] + pull * x, sum.force[1] + pull * y];
-    sum
 }

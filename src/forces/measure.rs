@@ -109,11 +109,19 @@ impl<L: Simd, const MEASURED: bool> Count<L, MEASURED> {
 
 /// Cuts planes into so many parts of a length; the last may be shorter, and those of an empty plane are empty.
 pub(super) fn in_parts<const N: usize>(
-    mut planes: [&mut [f64]; N],
+    planes: [&mut [f64]; N],
     length: usize,
     parts: usize,
 ) -> impl Iterator<Item = [&mut [f64]; N]> {
-    (0..parts).map(move |_| {
+    in_lengths(planes, std::iter::repeat_n(length, parts))
+}
+
+/// Cuts planes into parts of these lengths; the last may be shorter, and those of an empty plane are empty.
+pub(super) fn in_lengths<const N: usize>(
+    mut planes: [&mut [f64]; N],
+    lengths: impl Iterator<Item = usize>,
+) -> impl Iterator<Item = [&mut [f64]; N]> {
+    lengths.map(move |length| {
         planes.each_mut().map(|plane| {
             let end = length.min(plane.len());
             let (part, rest) = std::mem::take(plane).split_at_mut(end);

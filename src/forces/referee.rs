@@ -71,9 +71,9 @@ pub fn sum_over_all_pairs(mesh: &Mesh, material: &Material, position: &Planes, s
     for (site, &(element, local)) in carried.iter().enumerate() {
         let shape = &mesh.elements[element];
         let weights = shape.shape_functions(local);
-        for (k, weight) in weights.iter().enumerate().take(shape.node_count()) {
+        for (node, weight) in mesh.nodes_of(element).zip(weights) {
             for axis in 0..2 {
-                reference.force[axis][mesh.first_node(element) + k] += weight * site_force[site][axis];
+                reference.force[axis][node] += weight * site_force[site][axis];
             }
         }
     }

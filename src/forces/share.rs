@@ -46,7 +46,7 @@ impl Forces {
         self.domain.cut_anew(&self.mesh, costs, spent);
         self.tiles = tile::tiles(&self.mesh, &self.interfaces, &self.strings, self.domain.triangles());
         self.bordering = bordering(&self.domain, &self.mesh, &self.interfaces, &self.atoms);
-        self.halo = Halo::ask(&self.domain, &self.bordering);
+        self.halo = Halo::ask(&self.domain, &self.mesh, &self.bordering);
         self.watched.clear();
         self.watch(&self.loosened.clone());
         self.contacts.forget();

@@ -66,9 +66,11 @@ impl Forces {
         let mut largest: f64 = 0.0;
         let mut at = elements.start;
         while at < elements.end {
-            let mass = state.mass[self.mesh.first_node(at)];
-            let is_alike = !one_by_one && state.coupling.is_empty() && self.are_alike(at, elements.end);
-            let of_alike = is_alike.then(|| alike::largest(self, law, at, mass, largest)).flatten();
+            let mass = state.mass[self.mesh.node(at, 0)];
+            let is_alike = !one_by_one && state.coupled.is_empty() && self.are_alike(at, elements.end);
+            let of_alike = is_alike
+                .then(|| alike::largest(self, law, &state.position, at, [mass, largest]))
+                .flatten();
             if at >= self.mesh.triangles {
                 let atoms = self.arch.dispatch(atoms::Bounds::new(self, law, at..elements.end));
                 return atoms
@@ -79,7 +81,8 @@ impl Forces {
                 at += alike::WIDTH;
             } else {
                 let mut stiffness = self.triangle_stiffness(law, at, &state.position);
-                if let Some(&share) = state.coupling.get(at) {
+                let share = state.coupling_of(self.mesh.node(at, 0));
+                if share > 0.0 {
                     stiffness = over_coupled_masses(stiffness, share);
                 }
                 let known = if one_by_one { 0.0 } else { largest };

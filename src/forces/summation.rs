@@ -3,6 +3,7 @@
 use nalgebra::DMatrix;
 use pulp::Simd;
 
+use super::strings::CarriedString;
 use crate::lanes::Lanes;
 use crate::lattice::triangular;
 use crate::mesh::element::Element;
@@ -134,6 +135,11 @@ impl SampledString {
         }
     }
 
+    /// Where it is looked at while it is hardly bent, and the change of its bonds along it, in spacings, up to which it is.
+    pub fn few_places(&self) -> Option<(&[Sample], f64)> {
+        self.bend.map(|bend| (self.few.as_slice(), bend))
+    }
+
     /// Squared change of its bonds along a string of this kind, nm^2, up to which it is looked at in few places.
     #[inline(always)]
     pub fn hardly_bent(&self, spacing: f64) -> Option<f64> {
@@ -153,20 +159,15 @@ impl SampledString {
     }
 }
 
-/// The strings of one kind of interface, and how they act on the nodes.
+/// The strings of one kind of interface.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct KindStrings {
     pub strings: Vec<SampledString>,
-    /// Nodes of the first and of the second triangle on which the strings act.
-    pub shares: [Vec<NodeShare>; 2],
-}
-
-/// What a node gets of each string: this times the sum of its forces, and this times their moment. The sites of a string
-/// lie on a straight line, along which shape functions are linear.
-#[derive(Clone, Debug, PartialEq)]
-pub struct NodeShare {
-    pub node: usize,
-    pub of_string: Vec<[f64; 2]>,
+    /// How many nodes of each triangle they act on, and their corners: these first.
+    pub reach: usize,
+    pub corners: [[usize; 3]; 2],
+    /// The strings as these nodes carry them.
+    pub carried: Vec<CarriedString>,
 }
 
 impl KindStrings {
@@ -177,34 +178,33 @@ impl KindStrings {
             .map(|&string| SampledString::new(summation, &kind.elements, string))
             .filter(|string| string.is_nearest || !string.samples.is_empty())
             .collect();
-        let shares = [0, 1].map(|side| {
-            let of_node = |node: usize| NodeShare {
-                node,
-                of_string: strings
+        let acts = |side: usize, corner: usize| {
+            let weight_at = |local: [i32; 2]| kind.elements[side].shape_functions(local)[corner];
+            strings.iter().any(|sampled| {
+                let last = sampled.string.count - 1;
+                [0, last]
                     .iter()
-                    .map(|sampled| share(&kind.elements, &sampled.string, side, node))
-                    .collect(),
-            };
-            let acts = |share: &NodeShare| share.of_string.iter().flatten().any(|&weight| weight != 0.0);
-            (0..3).map(of_node).filter(acts).collect()
+                    .any(|&t| weight_at(sampled.string.ends(t)[side]) != 0.0)
+            })
+        };
+        let corners = [0, 1].map(|side| {
+            let mut corners = [0, 1, 2];
+            // Stable: the corners on which strings act come first.
+            corners.sort_by_key(|&corner| !acts(side, corner));
+            corners
         });
-        Self { strings, shares }
+        let reach = [0, 1].map(|side| (0..3).filter(|&corner| acts(side, corner)).count());
+        let carried = strings
+            .iter()
+            .map(|sampled| CarriedString::new(&kind.elements, &corners, sampled))
+            .collect();
+        Self {
+            strings,
+            reach: reach[0].max(reach[1]),
+            corners,
+            carried,
+        }
     }
-}
-
-/// Of the sum and of the moment of a string what a node of the first or of the second triangle gets.
-fn share(elements: &[Element; 2], string: &BondString, side: usize, node: usize) -> [f64; 2] {
-    let (start, step, sign) = match side {
-        0 => (string.first, string.first_step, 1.0),
-        _ => (string.second, string.second_step, -1.0),
-    };
-    let weight_at = |t: i32| elements[side].shape_functions([start[0] + t * step[0], start[1] + t * step[1]])[node];
-    let change = if string.count > 1 {
-        weight_at(1) - weight_at(0)
-    } else {
-        0.0
-    };
-    [sign * weight_at(0), sign * change]
 }
 
 /// The strings of every kind of interface under a rule.

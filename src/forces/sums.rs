@@ -5,8 +5,8 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use super::interface::{Pair, State};
-use super::measure::in_parts;
-use super::tile::{self, Scratch};
+use super::measure::in_lengths;
+use super::tile;
 use super::{Affine, CHUNK, ForceError, Forces, Measure, Planes, contact};
 use crate::domain::{Call, Halo};
 use crate::potential::{CutPotential, PairShape, with_law};
@@ -109,7 +109,6 @@ impl Forces {
         force: &mut Planes,
         measure: &mut Measure,
     ) -> Vec<u32> {
-        self.maps.update(position, self.domain.triangles());
         let inside: Vec<bool> = self.tiles.iter().map(|tile| !tile.is_at_border).collect();
         let at_border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
         let mut halo = std::mem::take(&mut self.halo);
@@ -123,9 +122,6 @@ impl Forces {
         });
         let arrived = Instant::now();
         self.exchange_time += arrived - start - computing;
-        for triangles in halo.triangles(&self.domain) {
-            self.maps.update(position, triangles);
-        }
         self.halo = halo;
         irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &at_border));
         self.spent[0] += (computing + arrived.elapsed()).as_secs_f64();
@@ -149,30 +145,22 @@ impl Forces {
             strings: &self.strings,
             bulk: &self.bulk,
             states: &self.states,
-            maps: &self.maps,
             position,
         };
         let mine = self.domain.triangles();
-        let [length, count] = [self.tile_length(), self.tiles.len()];
         let [nodes, _] = self.domain.nodes();
-        let force = in_parts(force.each_mut().map(|axis| &mut axis[nodes.clone()]), 3 * length, count);
+        let lengths = self.tiles.iter().map(|tile| tile.triangles.len());
+        let of_nodes = lengths.clone().map(|triangles| 3 * triangles);
+        let force = in_lengths(force.each_mut().map(|axis| &mut axis[nodes.clone()]), of_nodes);
         let [held, _] = measure.split(self.mesh.triangles);
         let held = held.map(|plane| contact::part_of(plane, &mine));
-        let outputs = force.zip(in_parts(held, length, count));
+        let outputs = force.zip(in_lengths(held, lengths));
         let tiles = self.tiles.iter().zip(outputs).zip(these).filter(|&(_, &asked)| asked);
         let tiles: Vec<_> = tiles.map(|(tile, _)| tile).collect();
         tiles
             .into_par_iter()
-            .map_init(Scratch::default, |scratch, (tile, (force, held))| {
-                tile::sum::<S, MEASURED>(&field, tile, scratch, tile::Output { force, held })
-            })
-            .flatten_iter()
+            .flat_map_iter(|(tile, (force, held))| tile::sum::<S, MEASURED>(&field, tile, tile::Output { force, held }))
             .collect()
-    }
-
-    /// Triangles of every tile but the last, which may have fewer.
-    fn tile_length(&self) -> usize {
-        self.tiles.first().map_or(1, |tile| tile.triangles.len())
     }
 
     /// Interfaces to be watched or of these triangles that are no longer what they were, and what they are.
@@ -199,7 +187,6 @@ impl Forces {
         let words = self.domain.ranks().join(words.collect());
         let mut touched = vec![false; self.tiles.len()];
         let triangles = self.domain.triangles();
-        let length = self.tile_length();
         let (changed, _) = words.as_chunks::<2>();
         for &[number, state] in changed {
             let pair = self.interfaces.pairs[number as usize];
@@ -207,7 +194,7 @@ impl Forces {
             *known = State::from_number(state).max(*known);
             for triangle in [pair.first as usize, pair.second as usize] {
                 if triangles.contains(&triangle) {
-                    touched[(triangle - triangles.start) / length] = true;
+                    touched[tile::of_triangle(&self.tiles, triangle)] = true;
                 }
             }
         }
@@ -237,7 +224,7 @@ impl Forces {
         let mut needed = [&self.bordering[..], self.contacts.needed()].concat();
         needed.sort_unstable();
         needed.dedup();
-        self.halo = Halo::ask(&self.domain, &needed);
+        self.halo = Halo::ask(&self.domain, &self.mesh, &needed);
         self.contacts.place_atoms(&self.domain, &self.halo);
         self.exchanges += 1;
         self.exchange_time += shared - start;
@@ -266,13 +253,12 @@ impl Forces {
 
     fn what_is_wrong_with(&self, element: usize, position: &Planes) -> Option<ForceError> {
         let shape = &self.mesh.elements[element];
-        let first = self.mesh.first_node(element);
         // Written so that a position that is not a number is refused.
         let is_near = |node: usize| position.iter().all(|axis| axis[node].abs() <= self.farthest);
-        if !(first..first + shape.node_count()).all(is_near) {
+        if !self.mesh.nodes_of(element).all(is_near) {
             return Some(ForceError::FlewAway { element });
         }
-        let is_sound = shape.is_atom() || Affine::of_triangle(shape.size, first, position).determinant() > 0.0;
+        let is_sound = shape.is_atom() || Affine::of_triangle(&self.mesh, element, position).determinant() > 0.0;
         (!is_sound).then_some(ForceError::Inverted { element })
     }
 }

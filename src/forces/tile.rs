@@ -1,36 +1,37 @@
 //! Triangles in tiles: the forces of bonds inside them and along the strings of their interfaces.
 //!
-//! A tile is small enough to stay in the cache. It computes every interface that touches one of its triangles, so that
-//! tiles need nothing of each other: interfaces between two tiles are computed twice. The sum of a triangle runs over
-//! its interfaces by rising number, wherever the tile begins, so that tiles leave no trace in the result.
+//! A tile computes every interface that touches one of its triangles, so that tiles need nothing of each other: interfaces
+//! between two tiles are computed twice. Interfaces are numbered row by row, so that what a tile works on stays in the
+//! cache. The sum of a triangle begins with its inside and runs over its interfaces by rising number, wherever the tile
+//! begins, so that tiles leave no trace in the result.
 
 mod sums;
 
-pub use sums::{Field, Output, Scratch, sum};
+pub use sums::{Field, Output, sum};
 
 use std::ops::Range;
 
 use super::summation::SampledStrings;
 use crate::mesh::Mesh;
+use crate::mesh::groups::Group;
 use crate::mesh::interfaces::Interfaces;
 
-/// Triangles of a tile: at most as many as fit into the cache, at least as many as are worth a task, and otherwise so
-/// many that all threads of a machine have some.
-const LARGEST: usize = 4096;
+/// Triangles of a tile, whole groups: so many that few interfaces lie between tiles, at least as many as are worth a task,
+/// and otherwise so few that all threads of a machine have some.
+const LARGEST: usize = 8192;
 const SMALLEST: usize = 256;
-const TILES_A_THREAD: usize = 16;
+const TILES_A_THREAD: usize = 4;
 
-/// Consecutive triangles, and the interfaces with strings that touch them.
+/// Groups that follow each other, and the interfaces with strings that touch them.
 pub struct Tile {
     pub triangles: Range<usize>,
     /// Whether some of the interfaces are to triangles of other ranks.
     pub is_at_border: bool,
-    /// Parts of one size.
-    sizes: Vec<(i32, Range<usize>)>,
+    groups: Vec<Group>,
     runs: Vec<Run>,
 }
 
-/// Interfaces of one kind with consecutive numbers whose triangles have consecutive numbers.
+/// Interfaces of one kind with consecutive numbers whose triangles have consecutive numbers in their groups.
 #[derive(Clone, Copy, Debug)]
 struct Run {
     kind: u32,
@@ -38,72 +39,95 @@ struct Run {
     second: u32,
     number: u32,
     count: u32,
+    /// The nodes of its first interface on which its strings act, of the first and of the second triangle.
+    nodes: [[u32; 3]; 2],
     /// Whether the first and the second triangles belong to the tile.
     owned: [bool; 2],
+    /// How many groups of the tile there are up to the last that it acts on.
+    groups: usize,
 }
 
 /// Cuts consecutive triangles of a mesh, those of one rank, into tiles.
 pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, mine: Range<usize>) -> Vec<Tile> {
-    let wanted = mine.len() / (TILES_A_THREAD * rayon::current_num_threads());
-    let length = wanted.next_multiple_of(SMALLEST).clamp(SMALLEST, LARGEST);
-    let starts = mine.clone().step_by(length);
-    let mut tiles: Vec<Tile> = starts
-        .map(|start| Tile::empty(mesh, start..(start + length).min(mine.end)))
-        .collect();
-    let tile_of = |triangle: u32| {
-        let is_mine = mine.contains(&(triangle as usize));
-        is_mine.then(|| (triangle as usize - mine.start) / length)
+    let wanted = match rayon::current_num_threads() {
+        1 => mine.len(),
+        threads => mine.len() / (TILES_A_THREAD * threads),
     };
+    let length = wanted.clamp(SMALLEST, LARGEST);
+    let mut tiles: Vec<Tile> = Vec::new();
+    for group in mesh.groups.of_range(&mine) {
+        match tiles.last_mut().filter(|tile| tile.triangles.len() < length) {
+            Some(tile) => tile.add(group),
+            None => tiles.push(Tile::of(group)),
+        }
+    }
     for (number, pair) in interfaces.pairs.iter().enumerate() {
         if !strings.are_there(pair.kind) {
             continue;
         }
-        let [one, other] = pair.both().map(tile_of);
+        let both = pair.both().map(|triangle| triangle as usize);
+        let [one, other] = both.map(|triangle| mine.contains(&triangle).then(|| of_triangle(&tiles, triangle)));
+        let corners = strings.of(pair.kind).corners;
+        let nodes = [0, 1].map(|side| corners[side].map(|corner| mesh.node(both[side], corner) as u32));
         let mut entry = Run {
             kind: pair.kind,
             first: pair.first,
             second: pair.second,
             number: number as u32,
             count: 1,
+            nodes,
             owned: [true, one == other],
+            groups: 0,
         };
         let is_at_border = one.is_none() || other.is_none();
         if let Some(tile) = one {
-            tiles[tile].push(entry);
+            tiles[tile].push(entry, mesh);
             tiles[tile].is_at_border |= is_at_border;
         }
         if let Some(tile) = other.filter(|_| one != other) {
             entry.owned = [false, true];
-            tiles[tile].push(entry);
+            tiles[tile].push(entry, mesh);
             tiles[tile].is_at_border |= is_at_border;
         }
     }
     tiles
 }
 
+/// The tile of a triangle.
+pub fn of_triangle(tiles: &[Tile], triangle: usize) -> usize {
+    tiles.partition_point(|tile| tile.triangles.end <= triangle)
+}
+
 impl Tile {
-    fn empty(mesh: &Mesh, triangles: Range<usize>) -> Self {
-        let mut sizes: Vec<(i32, Range<usize>)> = Vec::new();
-        for triangle in triangles.clone() {
-            let size = mesh.elements[triangle].size;
-            match sizes.last_mut().filter(|part| part.0 == size) {
-                Some((_, part)) => part.end += 1,
-                None => sizes.push((size, triangle..triangle + 1)),
-            }
-        }
+    fn of(group: &Group) -> Self {
         Self {
-            triangles,
+            triangles: group.elements.clone(),
             is_at_border: false,
-            sizes,
+            groups: vec![group.clone()],
             runs: Vec::new(),
         }
     }
 
+    fn add(&mut self, group: &Group) {
+        self.triangles.end = group.elements.end;
+        self.groups.push(group.clone());
+    }
+
     /// Adds one interface, to the last run if it continues that.
-    fn push(&mut self, entry: Run) {
+    fn push(&mut self, mut entry: Run, mesh: &Mesh) {
+        let first_group = mesh.groups.number_of(self.triangles.start);
+        let both = [entry.first, entry.second].into_iter().zip(entry.owned);
+        let owned = both.filter(|&(_, owned)| owned);
+        let groups = owned.map(|(triangle, _)| mesh.groups.number_of(triangle as usize) - first_group + 1);
+        entry.groups = groups.max().unwrap_or(0);
+        let in_one_group = |a: u32, b: u32| mesh.groups.number_of(a as usize) == mesh.groups.number_of(b as usize);
         let follows = |run: &&mut Run| {
             let next = [run.first, run.second, run.number].map(|start| start + run.count);
-            next == [entry.first, entry.second, entry.number] && run.kind == entry.kind && run.owned == entry.owned
+            next == [entry.first, entry.second, entry.number]
+                && run.kind == entry.kind
+                && run.owned == entry.owned
+                && in_one_group(run.first, entry.first)
+                && in_one_group(run.second, entry.second)
         };
         match self.runs.last_mut().filter(follows) {
             Some(run) => run.count += 1,

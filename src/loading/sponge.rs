@@ -13,13 +13,15 @@ use crate::state::State;
 /// exp(-this): a hundredth.
 const LOSS: f64 = 4.6;
 
-/// Elements in one parallel task.
+/// Atoms in one parallel task.
 const TASK: usize = 4096;
 
 /// Damps the velocity relative to that of even stretching, which is left alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sponge {
     elements: Vec<Soaked>,
+    /// How many elements each parallel task has, and where the nodes of its group or of its atoms end.
+    tasks: Vec<[usize; 2]>,
     /// Kinetic energy taken so far from each, eV: each has its own sum, so that their total does not depend on which rank
     /// moves it. Zero for those of other ranks.
     absorbed: Vec<f64>,
@@ -40,9 +42,10 @@ pub struct Layers {
 /// An element that is damped.
 #[derive(Clone, Debug, PartialEq)]
 struct Soaked {
-    /// Number of its first node among the nodes and, where it is a triangle, its number among the triangles.
+    /// Its first node, and from there to the next.
     first: usize,
-    triangle: Option<usize>,
+    step: usize,
+    node_count: usize,
     /// 1/ps
     damping: f64,
     /// Share of the relative velocity that is kept, over the time.
@@ -57,6 +60,7 @@ impl Sponge {
         let [low, high] = mesh.grip_edges();
         let middle = 0.5 * (low + high);
         let mut elements = Vec::new();
+        let mut tasks: Vec<[usize; 2]> = Vec::new();
         for (number, element) in mesh.elements.iter().enumerate() {
             let height = element.centre()[1] * mesh.spacing;
             let in_layers = layers.map_or(0.0, |layers| layers.damping(height, [low, high]));
@@ -68,9 +72,18 @@ impl Sponge {
             for (speed, corner) in stretching.iter_mut().zip(element.corners()) {
                 *speed = rate * (mesh.reference(corner)[1] - middle);
             }
+            let [step, end] = match number < mesh.triangles {
+                true => [mesh.groups.of(number).len(), mesh.groups.of(number).nodes().end],
+                false => [1, (mesh.node(number, 0) + 1).next_multiple_of(TASK)],
+            };
+            match tasks.last_mut() {
+                Some([count, last]) if *last == end => *count += 1,
+                _ => tasks.push([1, end]),
+            }
             elements.push(Soaked {
-                first: mesh.first_node(number),
-                triangle: (number < mesh.triangles).then_some(number),
+                first: mesh.node(number, 0),
+                step,
+                node_count: element.node_count(),
                 damping,
                 kept: 1.0,
                 stretching,
@@ -79,6 +92,7 @@ impl Sponge {
         Self {
             absorbed: vec![0.0; elements.len()],
             elements,
+            tasks,
             time: 0.0,
         }
     }
@@ -96,30 +110,33 @@ impl Sponge {
                 element.kept = (-element.damping * time).exp();
             }
         }
-        let State {
-            velocity: [x, y],
-            mass,
-            coupling,
-            ..
-        } = state;
-        let (mut x, mut y, mut from) = (x.as_mut_slice(), y.as_mut_slice(), 0);
-        let mut tasks = Vec::new();
-        for (elements, absorbed) in self.elements.chunks(TASK).zip(self.absorbed.chunks_mut(TASK)) {
-            // Elements are numbered as their nodes are, so that every task has nodes of its own.
-            let end = elements.last().map_or(from, |last| last.nodes().end);
-            let own = [&mut x, &mut y].map(|plane| plane.split_off_mut(..end - from).unwrap_or_default());
+        let mut velocity = std::mem::take(&mut state.velocity);
+        let [mut x, mut y] = velocity.each_mut().map(Vec::as_mut_slice);
+        let (mut elements, mut absorbed, mut from) = (self.elements.as_slice(), self.absorbed.as_mut_slice(), 0);
+        let mut tasks = Vec::with_capacity(self.tasks.len());
+        for &[count, end] in &self.tasks {
+            let own = [&mut x, &mut y].map(|plane| {
+                let length = (end - from).min(plane.len());
+                plane.split_off_mut(..length).unwrap_or_default()
+            });
+            let elements = elements.split_off(..count).unwrap_or_default();
+            let absorbed = absorbed.split_off_mut(..count).unwrap_or_default();
             tasks.push((elements, absorbed, own, from));
             from = end;
         }
+        let state_before: &State = state;
         tasks.into_par_iter().for_each(|(elements, absorbed, mut own, from)| {
             for (element, absorbed) in elements.iter().zip(absorbed) {
                 if element.is_within(nodes) {
-                    let coupling = element.triangle.and_then(|number| coupling.get(number)).copied();
-                    let [mass, coupling] = [mass[element.first], coupling.unwrap_or(0.0)];
+                    let [mass, coupling] = [
+                        state_before.mass[element.first],
+                        state_before.coupling_of(element.first),
+                    ];
                     *absorbed += element.absorb(&mut own, from, mass, coupling);
                 }
             }
         });
+        state.velocity = velocity;
     }
 
     /// What was taken from each element so far, from all ranks, which must call this together, eV.
@@ -146,10 +163,6 @@ impl Layers {
 }
 
 impl Soaked {
-    fn nodes(&self) -> Range<usize> {
-        self.first..self.first + if self.triangle.is_some() { 3 } else { 1 }
-    }
-
     fn is_within(&self, nodes: &[Range<usize>]) -> bool {
         nodes.iter().any(|range| range.contains(&self.first))
     }
@@ -157,25 +170,24 @@ impl Soaked {
     /// Damps the element, whose mass and coupling these are, in velocities that begin with those of node `from`; the kinetic
     /// energy that this takes, eV.
     fn absorb(&self, velocity: &mut [&mut [f64]; 2], from: usize, mass: f64, coupling: f64) -> f64 {
-        let nodes = self.nodes();
         let mut taken = 0.0;
         for (axis, plane) in velocity.iter_mut().enumerate() {
-            let velocity = &mut plane[nodes.start - from..nodes.end - from];
-            let before = squared_speed(velocity, coupling);
-            for (speed, stretching) in velocity.iter_mut().zip(self.stretching) {
+            let places = (0..self.node_count).map(|corner| self.first + corner * self.step - from);
+            let before = squared_speed(places.clone().map(|place| plane[place]), coupling);
+            for (place, stretching) in places.clone().zip(self.stretching) {
                 let even = if axis == 1 { stretching } else { 0.0 };
-                *speed = even + self.kept * (*speed - even);
+                plane[place] = even + self.kept * (plane[place] - even);
             }
-            taken += 0.5 * mass * (before - squared_speed(velocity, coupling));
+            taken += 0.5 * mass * (before - squared_speed(places.map(|place| plane[place]), coupling));
         }
         taken
     }
 }
 
 /// v^T M v of the nodes of an element over the lumped mass of one.
-fn squared_speed(velocity: &[f64], coupling: f64) -> f64 {
-    let sum: f64 = velocity.iter().sum();
-    let squares: f64 = velocity.iter().map(|speed| speed * speed).sum();
+fn squared_speed(velocity: impl Iterator<Item = f64> + Clone, coupling: f64) -> f64 {
+    let sum: f64 = velocity.clone().sum();
+    let squares: f64 = velocity.map(|speed| speed * speed).sum();
     (1.0 - 3.0 * coupling) * squares + coupling * sum * sum
 }
 
@@ -229,7 +241,7 @@ mod tests {
     #[test]
     fn a_sponge_takes_as_much_energy_as_the_specimen_loses_whatever_its_masses() {
         let (mesh, mut state) = specimen();
-        state.couple_masses(mesh.mass_couplings());
+        state.couple_masses(&mesh, 1.0);
         let speeds = (0..state.nodes())
             .map(|node| 0.1 + 0.01 * node as f64)
             .collect::<Vec<_>>();
@@ -286,7 +298,7 @@ mod tests {
         for (number, element) in mesh.elements.iter().enumerate() {
             let height = element.centre()[1];
             let inside = mesh.grip_of(element) == 0 && (height < low + 5.0 || height > high - 5.0);
-            let first = mesh.first_node(number);
+            let first = mesh.node(number, 0);
             assert_eq!(state.velocity[0][first] < 1.0, inside, "{height}");
         }
     }
@@ -304,7 +316,7 @@ mod tests {
         let mut free = free.filter(|(_, element)| mesh.grip_of(element) == 0).peekable();
         assert!(free.peek().is_some());
         for (number, _) in free {
-            let kept = state.velocity[0][mesh.first_node(number)];
+            let kept = state.velocity[0][mesh.node(number, 0)];
             assert!((kept - (-0.5_f64).exp()).abs() < 1e-14, "{kept}");
         }
     }

@@ -75,11 +75,12 @@ pub struct Interfaces {
     pub exposed: Vec<u32>,
 }
 
+/// Interfaces stay together with those of so many triangles side by side, upright and inverted ones of a row: what belongs
+/// together in space does in memory, and fits into the nearest cache.
+const STRETCH: usize = 64;
+
 /// Triangles whose sites come this close (in spacings) count as neighbours: the third shell.
 const REACH: f64 = 2.0;
-
-/// Interfaces stay together with those of this many triangles, so that what belongs together in space does in memory.
-const NEAR: usize = 2048;
 
 type KindKey = (i32, i32, i32, i32, i32, i32);
 
@@ -124,17 +125,29 @@ impl Interfaces {
                 });
             }
         }
-        found.sort_and_index(mesh.triangles);
+        found.sort_and_index(mesh);
         found
     }
 
     /// Puts interfaces that are alike together, and tells each triangle its own. They come by their first triangle and by
-    /// their second, so that every triangle meets its neighbours in rising order.
-    fn sort_and_index(&mut self, triangles: usize) {
+    /// their second, so that every triangle meets its neighbours in rising order. Those of a
+    /// stretch of a row stay together.
+    fn sort_and_index(&mut self, mesh: &Mesh) {
+        let triangles = mesh.triangles;
         let no_strings: Vec<bool> = self.kinds.iter().map(|kind| kind.strings.is_empty()).collect();
         let key = |pair: &Interface| {
-            let near = pair.first as usize / NEAR;
-            (no_strings[pair.kind as usize], near, pair.kind, pair.first)
+            let first = pair.first as usize;
+            let stretch = (first - mesh.groups.of(first).elements.start) / STRETCH;
+            let row = &mesh.elements[first];
+            (
+                no_strings[pair.kind as usize],
+                -row.size,
+                row.lowest_row(),
+                stretch,
+                mesh.groups.number_of(first),
+                pair.kind,
+                first,
+            )
         };
         let mut order: Vec<u32> = (0..self.pairs.len() as u32).collect();
         order.sort_unstable_by_key(|&found| key(&self.pairs[found as usize]));

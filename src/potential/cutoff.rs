@@ -1,6 +1,6 @@
 //! What becomes of a pair potential at its cutoff, and of the faces of a crack that was cut on purpose.
 
-use pulp::Simd;
+use pulp::{Simd, WithSimd};
 
 use super::PairShape;
 use crate::lanes::Lanes;
@@ -104,11 +104,14 @@ impl<S: PairShape> CutPotential<S> {
         if let AtCutoff::Smooth { from } = self.at_cutoff {
             let is_switched = squared_distances.is_above(self.squared_switch);
             if is_switched.any() {
-                let distances = squared_distances.square_root();
-                let [factor, first, _] = self.switches(simd, from, distances);
-                let switched = slopes.mul_add(factor, energies * first * distances.inverse());
-                slopes = switched.where_or(is_switched, slopes);
-                shifted = (energies * factor).where_or(is_switched, shifted);
+                let switched = simd.vectorize(Switched {
+                    law: *self,
+                    from,
+                    squared_distances,
+                    uncut: [energies, slopes],
+                });
+                shifted = switched[0].where_or(is_switched, shifted);
+                slopes = switched[1].where_or(is_switched, slopes);
             }
         }
         let is_within = squared_distances.is_below(self.squared_cutoff);
@@ -223,6 +226,28 @@ impl<S: PairShape> CutPotential<S> {
     /// Distance at which the energy is least, nm.
     pub fn minimum(&self) -> f64 {
         self.shape.minimum()
+    }
+}
+
+/// Pairs in the range of the switch. They have a function of their own, so that the others do not pay for its roots.
+struct Switched<S, T: Simd> {
+    law: CutPotential<S>,
+    from: f64,
+    squared_distances: Lanes<T>,
+    /// Energies and phi'/r without a cutoff.
+    uncut: [Lanes<T>; 2],
+}
+
+impl<S: PairShape, T: Simd> WithSimd for Switched<S, T> {
+    type Output = [Lanes<T>; 2];
+
+    #[inline(always)]
+    fn with_simd<L: Simd>(self, _: L) -> [Lanes<T>; 2] {
+        let [energies, slopes] = self.uncut;
+        let distances = self.squared_distances.square_root();
+        let [factor, first, _] = self.law.switches(distances.simd(), self.from, distances);
+        let of_slopes = slopes.mul_add(factor, energies * first * distances.inverse());
+        [energies * factor, of_slopes]
     }
 }
 

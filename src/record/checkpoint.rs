@@ -24,7 +24,7 @@ pub fn read(path: &Path, case_id: &str) -> Result<Checkpoint, RecordError> {
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 6,
+        format: 7,
         case_id,
     }
 }

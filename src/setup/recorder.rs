@@ -161,7 +161,10 @@ pub fn field_mesh(solver: &Solver) -> FieldMesh {
     }
     FieldMesh {
         points: x.iter().zip(&y).map(|(x, y)| [x - left, y - middle]).collect(),
-        connectivity: (0..mesh.node_count() as u32).collect(),
+        connectivity: (0..mesh.elements.len())
+            .flat_map(|element| mesh.nodes_of(element))
+            .map(|node| node as u32)
+            .collect(),
         offsets,
         element_size: mesh.elements.iter().map(|element| element.size as u32).collect(),
     }

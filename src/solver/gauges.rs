@@ -74,12 +74,14 @@ impl Gauges {
         for &(gauge, element, sites) in &self.members {
             let (sum, count) = &mut sums[gauge as usize];
             let [element, sites] = [element as usize, sites as usize];
-            let first = mesh.first_node(element);
-            let nodes = first..first + mesh.elements[element].node_count();
-            let weight = sites as f64 / nodes.len() as f64;
+            let weight = sites as f64 / mesh.elements[element].node_count() as f64;
             *count += sites as f64;
             for axis in 0..2 {
-                sum[axis] += weight * state.velocity[axis][nodes.clone()].iter().sum::<f64>();
+                sum[axis] += weight
+                    * mesh
+                        .nodes_of(element)
+                        .map(|node| state.velocity[axis][node])
+                        .sum::<f64>();
             }
             let virial = measure.virial(element);
             (0..3).for_each(|k| sum[2 + k] += virial[k] / volume);

@@ -41,7 +41,7 @@ impl Solver {
             seen.sort_unstable();
             seen.dedup();
         }
-        let mut parcels = Halo::ask(domain, &seen);
+        let mut parcels = Halo::ask(domain, self.forces.mesh(), &seen);
         let State {
             position,
             velocity,

@@ -133,7 +133,7 @@ impl Solver {
             step: self.step,
             time: self.time,
             strain: self.strain(),
-            place: self.reference_place(self.mesh().first_node(source.element())),
+            place: self.reference_place(self.mesh().node(source.element(), 0)),
             source,
         }
     }

@@ -37,7 +37,7 @@ impl Thermometer {
             if mesh.grip_of(atom) != 0 {
                 continue;
             }
-            let node = mesh.first_node(element) as u32;
+            let node = mesh.node(element, 0) as u32;
             let key = [atom.column, atom.row].map(|coordinate| coordinate.div_euclid(CELL));
             let cell = match thermometer.runs.last_mut() {
                 Some([first, count, cell]) if key == last && *first + *count == node => {

@@ -95,10 +95,9 @@ impl Traction {
 fn site(mesh: &Mesh, site: [i32; 2]) -> Option<Site> {
     let owner = mesh.owner_of(site)?;
     let element = &mesh.elements[owner];
-    let first = mesh.first_node(owner) as u32;
-    let last = element.node_count() as u32 - 1;
+    let last = element.node_count() - 1;
     Some(Site {
-        nodes: [0, 1, 2].map(|node| first + last.min(node)),
+        nodes: [0, 1, 2].map(|corner| mesh.node(owner, last.min(corner)) as u32),
         shares: element.shape_functions(element.local(site)),
     })
 }

@@ -152,10 +152,9 @@ pub fn states(mesh: &Mesh) -> Vec<(&'static str, Planes)> {
     });
     let slid = displaced(mesh, |[_, y]| [if y > middle { 0.45 } else { 0.0 }, 0.0]);
     let mut rubble = mesh.node_positions();
-    for (number, element) in mesh.elements.iter().enumerate() {
+    for number in 0..mesh.elements.len() {
         let drift = [0, 1].map(|_| 0.8 * mesh.spacing * noise.next());
-        let first = mesh.first_node(number);
-        for node in first..first + element.node_count() {
+        for node in mesh.nodes_of(number) {
             (0..2).for_each(|axis| rubble[axis][node] = 1.3 * rubble[axis][node] + drift[axis]);
         }
     }

@@ -48,8 +48,8 @@ impl Field<'_> {
     /// or of atoms, and what bounds all that they meet.
     fn meeting(&self, triangles: &[u32], atoms: &[u32], distance: f64, position: &Planes) -> Vec<(u32, Bounds)> {
         let corners_of = |&triangle: &u32| {
-            let first = 3 * triangle as usize;
-            [0, 1, 2].map(|corner| [0, 1].map(|axis: usize| position[axis][first + corner]))
+            let nodes = self.mesh.corners_of(triangle as usize);
+            nodes.map(|node| [0, 1].map(|axis: usize| position[axis][node]))
         };
         let corners: Vec<Corners> = triangles.iter().map(corners_of).collect();
         let around = |points: &[[f64; 2]]| {
@@ -149,7 +149,7 @@ impl Contacts {
         let mine = triangles
             .iter()
             .filter(|&&triangle| my_triangles.contains(&(triangle as usize)));
-        let of_triangles = mine.flat_map(|triangle| 3 * triangle..3 * triangle + 3);
+        let of_triangles = mine.flat_map(|&triangle| field.mesh.corners_of(triangle as usize).map(|node| node as u32));
         let mine = atoms
             .candidates
             .iter()
@@ -262,7 +262,7 @@ impl Candidates {
         element.extend(atoms.iter().map(|&atom| mesh.triangles as u32 + atom));
         local.resize(element.len(), [0, 0]);
         let of_atoms = element[carried..].iter().map(|&atom| {
-            let node = mesh.first_node(atom as usize);
+            let node = mesh.node(atom as usize, 0);
             [nodes[0][node], nodes[1][node]]
         });
         position.extend(of_atoms);

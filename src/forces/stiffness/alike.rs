@@ -4,10 +4,10 @@ use nalgebra::Matrix6;
 use pulp::{Simd, WithSimd};
 
 use super::{inside_weights, largest_eigenvalue};
-use crate::forces::Forces;
 use crate::forces::interface;
 use crate::forces::maps::{MapLanes, squared};
 use crate::forces::summation::{Sample, SampledString};
+use crate::forces::{Forces, Planes};
 use crate::lanes::{Lanes, MOST, Mask};
 use crate::potential::{CutPotential, PairShape};
 
@@ -38,27 +38,29 @@ struct Side {
 }
 
 impl Forces {
-    /// Whether the triangles from this one on have one size and their neighbours as if each were moved from the first,
+    /// Whether the triangles from this one on lie in one group and have their neighbours as if each were moved from the first,
     /// and none of them touches anything but intact interfaces.
     pub(super) fn are_alike(&self, from: usize, end: usize) -> bool {
         if from + WIDTH > end.min(self.mesh.triangles) {
             return false;
         }
-        let size = self.mesh.elements[from].size;
-        (from..from + WIDTH).all(|triangle| {
-            let moved = (triangle - from) as u32;
-            let same = self
-                .sides(triangle)
-                .map(|side| (side.kind, side.is_first, side.neighbour.wrapping_sub(moved)));
-            self.mesh.elements[triangle].size == size
-                && self.contacts.sites_of(&self.mesh, triangle).is_empty()
-                && self
-                    .interfaces
-                    .of(triangle)
-                    .iter()
-                    .all(|&number| !self.is_open(number as usize))
-                && same.eq(self.sides(from).map(|side| (side.kind, side.is_first, side.neighbour)))
-        })
+        let in_one_group = |first: usize| self.mesh.groups.of(first).elements.contains(&(first + WIDTH - 1));
+        let neighbours_are = self.sides(from).all(|side| in_one_group(side.neighbour as usize));
+        let are_together = in_one_group(from) && neighbours_are;
+        are_together
+            && (from..from + WIDTH).all(|triangle| {
+                let moved = (triangle - from) as u32;
+                let same = self
+                    .sides(triangle)
+                    .map(|side| (side.kind, side.is_first, side.neighbour.wrapping_sub(moved)));
+                self.contacts.sites_of(&self.mesh, triangle).is_empty()
+                    && self
+                        .interfaces
+                        .of(triangle)
+                        .iter()
+                        .all(|&number| !self.is_open(number as usize))
+                    && same.eq(self.sides(from).map(|side| (side.kind, side.is_first, side.neighbour)))
+            })
     }
 
     /// The interfaces of a triangle that have strings.
@@ -85,13 +87,14 @@ impl Forces {
 pub fn largest<S: PairShape>(
     forces: &Forces,
     law: &CutPotential<S>,
+    position: &Planes,
     from: usize,
-    mass: f64,
-    known: f64,
+    [mass, known]: [f64; 2],
 ) -> Option<f64> {
     forces.arch.dispatch(Largest {
         forces,
         law: *law,
+        position,
         from,
         mass,
         known,
@@ -101,6 +104,7 @@ pub fn largest<S: PairShape>(
 struct Largest<'a, S> {
     forces: &'a Forces,
     law: CutPotential<S>,
+    position: &'a Planes,
     from: usize,
     mass: f64,
     known: f64,
@@ -129,12 +133,21 @@ impl<S: PairShape> WithSimd for Largest<'_, S> {
 }
 
 impl<S: PairShape> Largest<'_, S> {
+    /// The maps of some triangles of a group from one on.
+    #[inline(always)]
+    fn maps<L: Simd>(&self, simd: L, from: usize) -> MapLanes<L> {
+        let group = self.forces.mesh.groups.of(from);
+        let position = self.position;
+        let corner = |node: usize| [0, 1].map(|axis: usize| Lanes::load(simd, &position[axis], node));
+        MapLanes::between([0, 1, 2].map(|corner| group.node(from, corner)).map(corner), group.size)
+    }
+
     /// The stiffness of some triangles from one on.
     #[inline(always)]
     fn stiffness<L: Simd>(&self, simd: L, from: usize) -> Option<Stiffness<L>> {
         let forces = self.forces;
         let element = &forces.mesh.elements[from];
-        let own = forces.maps.lanes(simd, from);
+        let own = self.maps(simd, from);
         if !forces.limit.regular_inside(&own)?.every() {
             return None;
         }
@@ -150,7 +163,7 @@ impl<S: PairShape> Largest<'_, S> {
             sum.add(|[a, b]| weights[a] * weights[b], &hessian);
         }
         for side in forces.sides(from) {
-            let other = forces.maps.lanes(simd, side.neighbour as usize);
+            let other = self.maps(simd, side.neighbour as usize);
             let maps = if side.is_first { [&own, &other] } else { [&other, &own] };
             for sampled in &forces.strings.of(side.kind).strings {
                 let moments = self.moments(simd, sampled, maps);

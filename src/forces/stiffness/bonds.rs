@@ -27,7 +27,7 @@ impl Forces {
         let shape = &self.mesh.elements[element];
         let cutoff = self.material.interaction.cutoff();
         if !shape.is_atom() {
-            let affine = Affine::of_triangle(shape.size, self.mesh.first_node(element), position);
+            let affine = Affine::of_triangle(&self.mesh, element, position);
             for bond in self.bulk.within(shape.size, &affine, self.material.spacing, cutoff) {
                 let kind = BondKind::Inside { local: bond.local };
                 call(Bond {

@@ -110,7 +110,6 @@ pub(super) type Nodes = [Point; 3];
 /// Gathers the nodes of an element.
 pub(super) fn nodes_of(mesh: &Mesh, state: &State, rings: &Rings, number: usize) -> Nodes {
     let element = &mesh.elements[number];
-    let first = mesh.first_node(number);
     let node = |node: usize, site: [i32; 2]| {
         let mut point = [0.0; 4 + RINGS];
         for axis in 0..2 {
@@ -121,11 +120,11 @@ pub(super) fn nodes_of(mesh: &Mesh, state: &State, rings: &Rings, number: usize)
         point
     };
     if element.is_atom() {
-        return [node(first, element.site([0, 0])); 3];
+        return [node(mesh.node(number, 0), element.site([0, 0])); 3];
     }
     let last = element.size - 1;
     let corners = [[0, 0], [last, 0], [0, last]];
-    [0, 1, 2].map(|k| node(first + k, element.site(corners[k])))
+    [0, 1, 2].map(|k| node(mesh.node(number, k), element.site(corners[k])))
 }
 
 impl Field<'_> {
@@ -137,14 +136,12 @@ impl Field<'_> {
             return [0.0; RINGS];
         };
         let [[ux, uy], [vx, vy]] = [0, 2].map(|k| [gradient[k][0], gradient[k + 1][0]]);
-        let first = self.mesh.first_node(number);
         let State {
             velocity, force, mass, ..
         } = self.state;
         let mut sum = [0.0; RINGS];
         let mut kinetic = 0.0;
-        for (k, point) in nodes[..element.node_count()].iter().enumerate() {
-            let node = first + k;
+        for (node, point) in self.mesh.nodes_of(number).zip(nodes) {
             let [mx, my] = [0, 1].map(|axis| mass[node] * velocity[axis][node]);
             kinetic += 0.5 * (mx * velocity[0][node] + my * velocity[1][node]);
             let inertia = force[0][node] * ux + force[1][node] * uy - mx * vx - my * vy;

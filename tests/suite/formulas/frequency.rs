@@ -66,7 +66,7 @@ fn the_frequency_bound_of_the_perfect_lattice_is_the_largest_eigenvalue_of_its_t
             .collect();
         let mut masses = mesh.lumped_masses();
         // Single atoms along the straight sides are faster; heavy ones leave the triangles alone to set the bound.
-        masses[mesh.first_node(mesh.triangles)..].fill(1e9);
+        masses[mesh.node(mesh.triangles, 0)..].fill(1e9);
         let state = State::at_rest(mesh.node_positions(), masses);
         let mut forces = Forces::new(mesh.clone(), material);
         let bounds = forces.stiffness_bounds(&state.position).unwrap();

@@ -29,8 +29,7 @@ fn moving(mesh: &Mesh, consistent: f64) -> State {
     let masses = mesh.lumped_masses().into_iter().map(|mass| mass * SITE_MASS);
     let mut state = State::at_rest(mesh.node_positions(), masses.collect());
     if consistent > 0.0 {
-        let couplings = mesh.mass_couplings().into_iter().map(|share| consistent * share);
-        state.couple_masses(couplings.collect());
+        state.couple_masses(mesh, consistent);
     }
     let mut noise = Noise(5);
     for plane in state.velocity.iter_mut().chain(&mut state.force) {
@@ -56,12 +55,12 @@ fn a_kick_gives_each_triangle_the_momenta_of_its_forces_through_its_mass_matrix(
             kick(&mut after, &before.every_node(), TIME);
             for (number, element) in mesh.elements[..mesh.triangles].iter().enumerate() {
                 let matrix = mass_matrix(element, consistent);
-                let first = mesh.first_node(number);
+                let nodes = mesh.corners_of(number);
                 for axis in 0..2 {
                     for i in 0..3 {
-                        let change = |j: usize| after.velocity[axis][first + j] - before.velocity[axis][first + j];
+                        let change = |j: usize| after.velocity[axis][nodes[j]] - before.velocity[axis][nodes[j]];
                         let momentum: f64 = (0..3).map(|j| matrix[i][j] * change(j)).sum();
-                        let impulse = TIME * before.force[axis][first + i];
+                        let impulse = TIME * before.force[axis][nodes[i]];
                         assert!(
                             (momentum - impulse).abs() < ROUNDING,
                             "{consistent}: {momentum} for {impulse}"
@@ -81,14 +80,14 @@ fn the_kinetic_energy_is_that_of_the_mass_matrices() {
             let mut expected = 0.0;
             for (number, element) in mesh.elements[..mesh.triangles].iter().enumerate() {
                 let matrix = mass_matrix(element, consistent);
-                let first = mesh.first_node(number);
+                let nodes = mesh.corners_of(number);
                 for plane in &state.velocity {
                     for i in 0..3 {
-                        (0..3).for_each(|j| expected += 0.5 * matrix[i][j] * plane[first + i] * plane[first + j]);
+                        (0..3).for_each(|j| expected += 0.5 * matrix[i][j] * plane[nodes[i]] * plane[nodes[j]]);
                     }
                 }
             }
-            let atoms = mesh.first_node(mesh.triangles)..state.nodes();
+            let atoms = mesh.node(mesh.triangles, 0)..state.nodes();
             let squared = |node: usize| state.velocity[0][node].powi(2) + state.velocity[1][node].powi(2);
             expected += atoms.map(|node| 0.5 * SITE_MASS * squared(node)).sum::<f64>();
             let found = state.kinetic_energy();

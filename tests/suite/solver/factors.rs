@@ -111,7 +111,7 @@ fn a_blow_gives_every_triangle_the_momentum_that_its_consistent_masses_say() {
     for size in [2u16, 3, 4, 7, 10] {
         let mesh = slab_of_whole_triangles(size.max(3), size, 1.0);
         let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
-        state.couple_masses(mesh.mass_couplings());
+        state.couple_masses(&mesh, 1.0);
         let mut noise = Noise(u64::from(size));
         state.force.iter_mut().flatten().for_each(|force| *force = noise.next());
         let nodes = state.every_node();
@@ -119,9 +119,10 @@ fn a_blow_gives_every_triangle_the_momentum_that_its_consistent_masses_say() {
         for (triangle, element) in mesh.elements[..mesh.triangles].iter().enumerate() {
             // [Deng2011] Eq. (3-29) before it is lumped: M_ij = m sum_a N_i(a) N_j(a), site by site.
             let shapes: Vec<[f64; 3]> = element.locals().map(|local| element.shape_functions(local)).collect();
-            let nodes = 3 * triangle..3 * triangle + 3;
+            let nodes = mesh.corners_of(triangle);
             for axis in 0..2 {
-                let [velocity, force] = [&state.velocity[axis][nodes.clone()], &state.force[axis][nodes.clone()]];
+                let [velocity, force] =
+                    [&state.velocity, &state.force].map(|planes| nodes.map(|node| planes[axis][node]));
                 for (i, force) in force.iter().enumerate() {
                     let mass = |j: usize| shapes.iter().map(|shape| shape[i] * shape[j]).sum::<f64>();
                     let momentum: f64 = (0..3).map(|j| mass(j) * velocity[j]).sum();

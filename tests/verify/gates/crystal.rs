@@ -306,13 +306,13 @@ fn force_left_by_an_affine_strain(material: &Material, summation: Summation) -> 
             let mut neighbours = shells.iter().map(|v| [site[0] + v[0], site[1] + v[1]]);
             neighbours.all(|site| mesh.sites.index(site).is_some())
         };
-        for (element, shape) in mesh
+        for (element, _) in mesh
             .elements
             .iter()
             .enumerate()
             .filter(|(_, e)| e.sites().all(is_inside))
         {
-            for node in mesh.first_node(element)..mesh.first_node(element) + shape.node_count() {
+            for node in mesh.nodes_of(element) {
                 let size = force[0][node].abs().max(force[1][node].abs());
                 worst = worst.max(size / bond_strength(material));
                 looked_at += 1.0;

@@ -37,8 +37,8 @@ fn partners(mesh: &Mesh) -> Vec<usize> {
             ..*element
         };
         let other = numbers[&turned];
-        for k in 0..element.node_count() {
-            partners[mesh.first_node(number) + k] = mesh.first_node(other) + k;
+        for (node, partner) in mesh.nodes_of(number).zip(mesh.nodes_of(other)) {
+            partners[node] = partner;
         }
     }
     partners

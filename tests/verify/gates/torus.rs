@@ -50,9 +50,8 @@ impl Ghosts {
             let image = (-FARTHEST..=FARTHEST).find_map(image);
             let (image, vector) = image.expect("every element has an image in the core");
             let shift = triangular::position(vector).map(|part| -part * mesh.spacing);
-            for k in 0..element.node_count() {
-                pairs.push((mesh.first_node(number) + k, mesh.first_node(image) + k, shift));
-            }
+            let both = mesh.nodes_of(number).zip(mesh.nodes_of(image));
+            pairs.extend(both.map(|(ghost, node)| (ghost, node, shift)));
         }
         Self(pairs)
     }

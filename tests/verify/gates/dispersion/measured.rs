@@ -39,9 +39,8 @@ impl Measured {
         let mesh = block_mesh(size, 6, 9, size as u16, material.spacing);
         let cell = cell(&mesh, size);
         let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
-        let couplings = mesh.mass_couplings().into_iter().map(|share| consistent * share);
-        state.couple_masses(couplings.collect());
-        let nodes: Vec<usize> = cell.iter().flat_map(|&element| 3 * element..3 * element + 3).collect();
+        state.couple_masses(&mesh, consistent);
+        let nodes: Vec<usize> = cell.iter().flat_map(|&element| mesh.nodes_of(element)).collect();
         let images = images(&mesh, size, &cell);
         let mut forces = Forces::new(mesh, *material);
         forces.refresh(&state.position).expect("the patch is sound");
@@ -79,7 +78,7 @@ impl Measured {
         Self {
             answers,
             nodes: places.collect(),
-            coupling: state.coupling[cell[0]],
+            coupling: state.coupling_of(nodes[0]),
             frequency_bound: bound.sqrt(),
         }
     }
@@ -178,7 +177,7 @@ fn images(mesh: &Mesh, size: i32, cell: &[usize]) -> Vec<(usize, usize, [f64; 2]
                 let vector = [i * along[0] + j * across[0], i * along[1] + j * across[1]];
                 if let Some(&image) = numbers.get(&moved(&mesh.elements[element], vector)) {
                     let shift = triangular::position(vector).map(|part| part * mesh.spacing);
-                    images.extend((0..3).map(|k| (3 * image + k, 3 * place + k, shift)));
+                    images.extend((0..3).map(|k| (mesh.node(image, k), 3 * place + k, shift)));
                 }
             }
         }
