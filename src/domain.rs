@@ -205,6 +205,11 @@ impl Domain {
         self.heard |= self.ranks.any(std::mem::take(&mut self.called));
     }
 
+    /// Whether any rank has called for a stop or a checkpoint that nobody has asked about yet.
+    pub fn is_called(&self) -> bool {
+        self.heard & (Call::Stop as u64 | Call::Checkpoint as u64) != 0
+    }
+
     /// Whether any rank has called this since it was last asked.
     pub fn hears(&mut self, call: Call) -> bool {
         let heard = self.heard & call as u64 != 0;

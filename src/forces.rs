@@ -10,12 +10,15 @@
 mod affine;
 mod bonds;
 mod bulk;
+mod certified;
 mod contact;
 mod interface;
+mod kinds;
 mod maps;
 mod measure;
 pub mod referee;
 mod regular;
+mod rows;
 mod share;
 mod stiffness;
 mod strings;
@@ -28,7 +31,9 @@ pub use affine::{Affine, site_position};
 pub use measure::Measure;
 pub use share::burdens;
 pub use summation::Summation;
+pub use sums::Motion;
 
+use std::ops::Range;
 use std::time::{Duration, Instant};
 
 use crate::domain::{Domain, Halo, Ranks};
@@ -37,11 +42,12 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
 use bulk::BulkBonds;
+use certified::Certificate;
 use contact::Contacts;
 use contact::lattice::AtomLattice;
 use interface::{IntactLimit, State};
+use kinds::SampledStrings;
 use pulp::Arch;
-use summation::SampledStrings;
 use tile::Tile;
 
 /// Node positions or forces: x and y, one entry a node.
@@ -89,6 +95,12 @@ pub struct Forces {
     loosened: Vec<u32>,
     /// Interfaces of my triangles that are tested in every step.
     watched: Vec<u32>,
+    /// Triangles of each tile whose forces nothing but the tile can change, and all others of mine, ascending.
+    certain: Vec<Vec<Range<usize>>>,
+    uncertain: Vec<u32>,
+    certain_is_current: bool,
+    /// Groups of triangles whose forces are looked at in every step.
+    looked_at: Vec<bool>,
     /// No sound coordinate is larger, nm.
     farthest: f64,
     /// The instructions that the processor has.
@@ -128,8 +140,12 @@ impl Forces {
         let state = |severed: bool| if severed { State::Open } else { State::Tight };
         let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
         let bulk = BulkBonds::new(&mesh, listed, summation);
-        let strings = SampledStrings::new(&interfaces, summation);
         let limit = IntactLimit::new(&material, triangular::next_length(listed));
+        let certificate = limit.untouched.map(|regular| Certificate {
+            material: &material,
+            regular,
+        });
+        let strings = SampledStrings::new(&interfaces, summation, certificate);
         let atoms = AtomLattice::new(&mesh, listed, limit.regular);
         let start = Instant::now();
         let domain = Domain::new(ranks, &mesh, share::costs(&mesh, &interfaces));
@@ -159,6 +175,10 @@ impl Forces {
             limit,
             loosened: Vec::new(),
             watched: Vec::new(),
+            certain: Vec::new(),
+            uncertain: Vec::new(),
+            certain_is_current: false,
+            looked_at: Vec::new(),
             farthest: Self::FARTHEST * largest,
             arch: Arch::new(),
             first_cut,
@@ -169,6 +189,7 @@ impl Forces {
             spent: [0.0; 2],
             spent_by_all: Vec::new(),
         };
+        forces.look_at(std::iter::empty());
         let severed = (0..).zip(&forces.interfaces.pairs).filter(|(_, pair)| pair.severed);
         let severed: Vec<u32> = severed.map(|(number, _)| number).collect();
         forces.watch(&severed);
@@ -204,6 +225,17 @@ impl Forces {
         self.watch(open);
         self.atoms.calm();
         self.contacts.forget();
+    }
+
+    /// Keeps the forces on the groups of triangles with these nodes up to date in every step.
+    pub fn look_at(&mut self, nodes: impl Iterator<Item = u32>) {
+        self.looked_at.resize(self.mesh.groups.all().len(), false);
+        for node in nodes {
+            let element = self.mesh.element_of_node(node as usize);
+            if element < self.mesh.triangles {
+                self.looked_at[self.mesh.groups.number_of(element)] = true;
+            }
+        }
     }
 
     pub fn interface_count(&self) -> usize {
@@ -253,6 +285,7 @@ impl Forces {
         watched.retain(|&number| !self.is_open(number as usize));
         self.watched = watched;
         include(&mut self.loosened, changed.to_vec());
+        self.certain_is_current = false;
     }
 
     /// Whether an interface is one of my triangles'.

@@ -2,142 +2,193 @@
 //!
 //! [Deng2011] Fig. 4-5 and Eq. (3-34): half a kick, a drift, new forces, half a kick.
 
+mod moving;
+
 use std::ops::Range;
 
 use pulp::Arch;
 use rayon::prelude::*;
 
-use crate::state::{Coupled, State};
+use crate::mesh::Mesh;
+use crate::state::{Inertia, State, Strip};
+use moving::{Mobility, Moving, Nodes};
 
 /// Nodes in one parallel task.
 const CHUNK: usize = 4096;
+
+/// What moves nodes from one moment to the next: so many equal kicks over half of the time each, then a drift over the time.
+///
+/// Between two steps in which nobody looks, two kicks follow each other; together with the drift they pass through the
+/// memory once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Step {
+    pub kicks: u32,
+    /// ps
+    pub time: f64,
+}
+
+/// Kicks and their time, and the time of the drift after them.
+#[derive(Clone, Copy)]
+struct Motion {
+    kicks: u32,
+    kick: f64,
+    drift: Option<f64>,
+}
 
 /// Advances the velocities of ranges of nodes by the forces over a time.
 ///
 /// Coupled masses are a block m ((1 - 3 c) I + c 1 1^T) a triangle, and its inverse takes c times the sum of the three
 /// forces off each before it divides by m (1 - 3 c).
 pub fn kick(state: &mut State, nodes: &[Range<usize>], time: f64) {
-    nodes.iter().for_each(|nodes| advance(state, nodes, 1, time, None));
-}
-
-/// Advances the velocities by so many equal kicks over half a time each, and with them the positions over the time.
-///
-/// Between two steps in which nobody looks, two kicks follow each other; together with the drift they pass through the
-/// memory once.
-pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], kicks: u32, time: f64) {
-    nodes
-        .iter()
-        .for_each(|nodes| advance(state, nodes, kicks, 0.5 * time, Some(time)));
-}
-
-/// A range begins and ends with whole groups of triangles.
-fn advance(state: &mut State, nodes: &Range<usize>, kicks: u32, kick: f64, drift: Option<f64>) {
-    let State {
-        position,
-        velocity,
-        force,
-        mobility,
-        coupled,
-        ..
-    } = state;
-    let coupled = coupled.iter().filter(|coupled| nodes.contains(&coupled.nodes.start));
-    let parts: Vec<Part> = match coupled.clone().next() {
-        None => nodes
-            .clone()
-            .step_by(CHUNK)
-            .map(|from| Part::lumped(from..nodes.end.min(from + CHUNK)))
-            .collect(),
-        Some(_) => coupled.map(Part::coupled).collect(),
+    let motion = Motion {
+        kicks: 1,
+        kick: time,
+        drift: None,
     };
-    let planes = |axis: usize, position, velocity| {
-        let [mut position, mut velocity]: [&mut [f64]; 2] = [position, velocity];
-        let mut at = 0;
-        let parts = parts.iter().map(|part| {
-            let [position, velocity] = [&mut position, &mut velocity].map(|plane| {
-                let own = plane
-                    .split_off_mut(..part.nodes.end - at)
-                    .expect("parts lie one after the other");
-                &mut own[part.nodes.start - at..]
+    nodes.iter().for_each(|nodes| motion.advance(state, nodes));
+}
+
+/// Moves ranges of nodes by a step.
+pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], step: Step) {
+    nodes.iter().for_each(|nodes| step.motion().advance(state, nodes));
+}
+
+impl Step {
+    fn motion(self) -> Motion {
+        Motion {
+            kicks: self.kicks,
+            kick: 0.5 * self.time,
+            drift: Some(self.time),
+        }
+    }
+
+    /// Moves triangles from these positions into the next: the same as [`kick_and_drift`] to the bit.
+    pub fn advance(self, strip: Strip, position: &[Vec<f64>; 2], mobility: &[Vec<f64>; 2], inertia: &Inertia) {
+        for (axis, corners) in strip.axes.into_iter().enumerate() {
+            let corners = corners.map(|corner| Nodes {
+                velocity: corner.velocity,
+                force: corner.force,
+                mobility: match inertia.mobility {
+                    Some(mobility) => Mobility::Same(mobility[axis]),
+                    None => Mobility::Each(&mobility[axis][corner.nodes.clone()]),
+                },
+                position: Some(&position[axis][corner.nodes]),
+                next: corner.next,
             });
-            at = part.nodes.end;
-            Motion {
-                position,
-                velocity,
-                force: &force[axis][part.nodes.clone()],
-                mobility: &mobility[axis][part.nodes.clone()],
-                share: part.share,
-            }
-        });
-        parts.collect::<Vec<Motion>>()
-    };
-    let [position_x, position_y] = position;
-    let [velocity_x, velocity_y] = velocity;
-    // Both axes at once, so that threads wait for each other only once.
-    let mut motions = planes(0, position_x, velocity_x);
-    motions.extend(planes(1, position_y, velocity_y));
-    motions.into_par_iter().for_each(|mut motion| {
-        Arch::new().dispatch(|| {
-            for _ in 0..kicks {
-                motion.kick(kick);
-            }
-            if let Some(time) = drift {
-                motion.drift(time);
-            }
-        });
-    });
-}
-
-/// Nodes that one thread moves.
-struct Part {
-    nodes: Range<usize>,
-    /// Of triangles with coupled masses.
-    share: Option<f64>,
-}
-
-impl Part {
-    fn lumped(nodes: Range<usize>) -> Self {
-        Self { nodes, share: None }
+            self.motion().dispatch(corners, inertia.share);
+        }
     }
 
-    fn coupled(coupled: &Coupled) -> Self {
-        Self {
-            nodes: coupled.nodes.clone(),
-            share: Some(coupled.share),
+    /// Moves some triangles from their positions into the next, one by one, likewise.
+    pub fn advance_triangles(self, state: &mut State, next: &mut [Vec<f64>; 2], mesh: &Mesh, triangles: &[u32]) {
+        for &triangle in triangles {
+            let nodes = mesh.corners_of(triangle as usize);
+            let share = state.coupling_of(nodes[0]);
+            for axis in 0..2 {
+                let force = nodes.map(|node| state.force[axis][node]);
+                let shared = match share > 0.0 {
+                    true => (force[0] + force[1] + force[2]) * share,
+                    false => 0.0,
+                };
+                for (node, force) in nodes.into_iter().zip(force) {
+                    let push = state.mobility[axis][node] * (0.5 * self.time) * (force - shared);
+                    let velocity = &mut state.velocity[axis][node];
+                    (0..self.kicks).for_each(|_| *velocity += push);
+                    next[axis][node] = state.position[axis][node] + *velocity * self.time;
+                }
+            }
+        }
+    }
+
+    /// Moves a range of single atoms from their positions into the next, likewise.
+    pub fn advance_atoms(self, state: &mut State, next: &mut [Vec<f64>; 2], nodes: Range<usize>) {
+        for axis in 0..2 {
+            let tasks = next[axis][nodes.clone()]
+                .par_chunks_mut(CHUNK)
+                .zip(state.velocity[axis][nodes.clone()].par_chunks_mut(CHUNK))
+                .zip(state.position[axis][nodes.clone()].par_chunks(CHUNK))
+                .zip(state.force[axis][nodes.clone()].par_chunks(CHUNK))
+                .zip(state.mobility[axis][nodes.clone()].par_chunks(CHUNK));
+            tasks.for_each(|((((next, velocity), position), force), mobility)| {
+                let atoms = Nodes {
+                    velocity,
+                    force,
+                    mobility: Mobility::Each(mobility),
+                    position: Some(position),
+                    next,
+                };
+                self.motion().dispatch_lumped(atoms);
+            });
         }
     }
 }
 
-/// Nodes in motion along one axis.
-struct Motion<'a> {
-    position: &'a mut [f64],
-    velocity: &'a mut [f64],
-    force: &'a [f64],
-    mobility: &'a [f64],
-    share: Option<f64>,
-}
-
-impl Motion<'_> {
-    #[inline(always)]
-    fn kick(&mut self, time: f64) {
-        let Some(share) = self.share else {
-            let nodes = self.velocity.iter_mut().zip(self.force).zip(self.mobility);
-            nodes.for_each(|((velocity, force), mobility)| *velocity += time * mobility * force);
-            return;
+impl Motion {
+    /// A range begins and ends with whole groups of triangles.
+    fn advance(self, state: &mut State, nodes: &Range<usize>) {
+        let State {
+            position,
+            velocity,
+            force,
+            mobility,
+            coupled,
+            ..
+        } = state;
+        let coupled = coupled.iter().filter(|coupled| nodes.contains(&coupled.nodes.start));
+        let parts: Vec<(Range<usize>, f64)> = match coupled.clone().next() {
+            None => {
+                let starts = nodes.clone().step_by(CHUNK);
+                starts.map(|from| (from..nodes.end.min(from + CHUNK), 0.0)).collect()
+            }
+            Some(_) => coupled.map(|coupled| (coupled.nodes.clone(), coupled.share)).collect(),
         };
-        let count = self.force.len() / 3;
-        for triangle in 0..count {
-            let nodes = [triangle, triangle + count, triangle + 2 * count];
-            let shared = share * nodes.map(|node| self.force[node]).iter().sum::<f64>();
-            for node in nodes {
-                self.velocity[node] += time * self.mobility[node] * (self.force[node] - shared);
+        // Both axes at once, so that threads wait for each other only once.
+        let mut tasks = Vec::with_capacity(2 * parts.len());
+        for (axis, (position, velocity)) in position.iter_mut().zip(velocity).enumerate() {
+            let [mut position, mut velocity] = [position, velocity].map(|plane| &mut plane[nodes.clone()]);
+            for (part, share) in &parts {
+                let [next, velocity] = [&mut position, &mut velocity].map(|plane| {
+                    let own = plane.split_off_mut(..part.len());
+                    own.expect("parts lie one after the other")
+                });
+                let [force, mobility] = [&force[axis][part.clone()], &mobility[axis][part.clone()]];
+                let nodes = Nodes {
+                    velocity,
+                    force,
+                    mobility: Mobility::Each(mobility),
+                    position: None,
+                    next,
+                };
+                tasks.push((nodes, *share));
             }
         }
+        tasks.into_par_iter().for_each(|(nodes, share)| match share > 0.0 {
+            true => self.dispatch(nodes.corners(), share),
+            false => self.dispatch_lumped(nodes),
+        });
     }
 
-    #[inline(always)]
-    fn drift(&mut self, time: f64) {
-        let nodes = self.position.iter_mut().zip(&*self.velocity);
-        nodes.for_each(|(position, velocity)| *position += time * velocity);
+    /// Moves the corners of triangles.
+    fn dispatch(self, corners: [Nodes; 3], share: f64) {
+        if share == 0.0 {
+            return corners.into_iter().for_each(|nodes| self.dispatch_lumped(nodes));
+        }
+        self.dispatch_to(corners, share);
+    }
+
+    /// Nodes whose masses are coupled if there are three of them.
+    fn dispatch_to<const N: usize>(self, corners: [Nodes; N], share: f64) {
+        Arch::new().dispatch(Moving {
+            corners,
+            share,
+            kicks: self.kicks,
+            kick: self.kick,
+            drift: self.drift,
+        });
+    }
+
+    fn dispatch_lumped(self, nodes: Nodes) {
+        self.dispatch_to([nodes], 0.0);
     }
 }
 
@@ -175,7 +226,8 @@ mod tests {
     }
 
     fn step(state: &mut State, time: f64) {
-        kick_and_drift(state, &state.every_node(), 1, time);
+        let step = Step { kicks: 1, time };
+        kick_and_drift(state, &state.every_node(), step);
         state.force[0][0] = -state.position[0][0];
         kick(state, &state.every_node(), 0.5 * time);
     }

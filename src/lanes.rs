@@ -139,6 +139,26 @@ impl<S: Simd> Lanes<S> {
     }
 }
 
+/// Has the processor fetch from memory what will be needed, so that nothing waits for it then. Corners of a row of triangles
+/// are too many streams, each too short, for it to guess.
+#[inline(always)]
+#[cfg_attr(
+    target_arch = "x86_64",
+    allow(
+        unsafe_code,
+        reason = "a hint to the processor: it reads nothing, whatever the address"
+    )
+)]
+pub fn prefetch(plane: &[f64], at: usize) {
+    #[cfg(target_arch = "x86_64")]
+    unsafe {
+        use core::arch::x86_64::{_MM_HINT_T1, _mm_prefetch};
+        _mm_prefetch::<_MM_HINT_T1>(plane.as_ptr().wrapping_add(at).cast());
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (plane, at);
+}
+
 /// The most lanes any processor has.
 pub const MOST: usize = 8;
 

@@ -33,6 +33,12 @@ pub trait PairShape: Copy + Send + Sync + std::fmt::Debug {
             Lanes::each(simd, |lane| pairs[lane].1),
         ]
     }
+    /// phi'(r)/r of several pairs at once.
+    #[inline(always)]
+    fn slopes<L: Simd>(&self, simd: L, squared_distances: Lanes<L>) -> Lanes<L> {
+        let [_, slopes] = self.energies_and_slopes(simd, squared_distances);
+        slopes
+    }
     /// Second derivative phi''.
     fn curvature(&self, distance: f64) -> f64;
     /// phi'' of several pairs at once.

@@ -1,9 +1,13 @@
 //! The state of a specimen in motion.
 
+mod strip;
+
 use std::ops::Range;
 
 use crate::lanes;
 use crate::mesh::Mesh;
+
+pub use strip::Strip;
 
 /// Positions, velocities, forces and masses of the nodes, a plane (x, y) each. Units nm, ps, eV.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,16 +83,26 @@ impl State {
         }
     }
 
-    /// The triangles with coupled masses that a node belongs to.
-    fn coupled_at(&self, node: usize) -> Option<&Coupled> {
-        let after = self.coupled.partition_point(|coupled| coupled.nodes.start <= node);
-        let coupled = self.coupled.get(after.checked_sub(1)?)?;
-        coupled.nodes.contains(&node).then_some(coupled)
-    }
-
     /// The mass that couples a node to another of its triangle, over the lumped mass of one; zero where it is lumped.
     pub fn coupling_of(&self, node: usize) -> f64 {
-        self.coupled_at(node).map_or(0.0, |coupled| coupled.share)
+        coupled_at(&self.coupled, node).map_or(0.0, |coupled| coupled.share)
+    }
+
+    /// How the nodes of each group of a mesh answer to forces.
+    pub fn inertias(&self, mesh: &Mesh) -> Vec<Inertia> {
+        let of_group = |nodes: Range<usize>| {
+            let same = |plane: &Vec<f64>| {
+                plane[nodes.clone()]
+                    .iter()
+                    .all(|mobility| *mobility == plane[nodes.start])
+            };
+            let is_same = self.mobility.iter().all(same);
+            Inertia {
+                mobility: is_same.then(|| self.mobility.each_ref().map(|plane| plane[nodes.start])),
+                share: self.coupling_of(nodes.start),
+            }
+        };
+        mesh.groups.all().iter().map(|group| of_group(group.nodes())).collect()
     }
 
     pub fn nodes(&self) -> usize {
@@ -109,7 +123,7 @@ impl State {
     /// The part of a node: with coupled masses c m (sum v)^2, which the nodes of a triangle share, is c m v (sum v) of each.
     #[inline(always)]
     pub fn kinetic_energy_of(&self, node: usize) -> f64 {
-        let squared = match self.coupled_at(node) {
+        let squared = match coupled_at(&self.coupled, node) {
             None => self.velocity.each_ref().map(|plane| plane[node] * plane[node]),
             Some(coupled) => self.velocity.each_ref().map(|plane| {
                 let speed = plane[node];
@@ -119,4 +133,20 @@ impl State {
         };
         0.5 * self.mass[node] * (squared[0] + squared[1])
     }
+}
+
+/// How the nodes of a group of triangles answer to forces.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Inertia {
+    /// What a force along x and along y is multiplied by to give the acceleration, where it is the same for all.
+    pub mobility: Option<[f64; 2]>,
+    /// See [`State::coupling_of`].
+    pub share: f64,
+}
+
+/// Of some triangles with coupled masses, ascending, those that a node belongs to.
+fn coupled_at(coupled: &[Coupled], node: usize) -> Option<&Coupled> {
+    let after = coupled.partition_point(|coupled| coupled.nodes.start <= node);
+    let coupled = coupled.get(after.checked_sub(1)?)?;
+    coupled.nodes.contains(&node).then_some(coupled)
 }

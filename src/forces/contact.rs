@@ -13,7 +13,7 @@ mod search;
 mod sums;
 pub mod tally;
 
-pub use search::Field;
+pub use search::{Field, searched};
 
 use std::ops::Range;
 

@@ -12,6 +12,7 @@ use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
 use crate::mesh::interfaces::{BondString, Interfaces};
+use crate::potential::with_law;
 
 /// How two neighbouring triangles stand to each other.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -42,17 +43,22 @@ pub struct IntactLimit {
     pub spacing: f64,
     /// What few intact interfaces fail; `None` where the cutoff leaves no room for it.
     pub regular: Option<Regular>,
+    /// The same, where the cutoff leaves regular nearest-neighbour bonds untouched.
+    pub untouched: Option<Regular>,
 }
 
 impl IntactLimit {
     /// `unlisted` in spacings.
     pub fn new(material: &Material, unlisted: f64) -> Self {
         let [cutoff, spacing] = [material.interaction.cutoff(), material.spacing];
+        let regular = Regular::new(unlisted, cutoff, spacing);
+        let untouched = with_law!(material.interaction, law => law.squared_untouched());
         Self {
             cutoff,
             unlisted,
             spacing,
-            regular: Regular::new(unlisted, cutoff, spacing),
+            regular,
+            untouched: regular.filter(|regular| regular.lengths()[1].powi(2) <= untouched),
         }
     }
 

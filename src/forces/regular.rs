@@ -15,7 +15,7 @@ use crate::lattice::triangular;
 /// triangle, that takes no path to one shorter than s times it, and sites that are X apart in the perfect lattice are at
 /// least s X apart unless the straight line between them leaves the region. Nor is that line shorter than s times the
 /// distance of one of them from the edge of the region, a polygon through sites, in the perfect lattice.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Regular {
     least: f64,
     most: f64,
@@ -39,6 +39,11 @@ impl Regular {
             least: (Self::LEAST * spacing).powi(2),
             most: (most * spacing).powi(2),
         })
+    }
+
+    /// The ends of the range as lengths, nm.
+    pub fn lengths(&self) -> [f64; 2] {
+        [self.least.sqrt(), self.most.sqrt()]
     }
 
     /// Whether the squared length of a bond is in the range; no for what is no number.

@@ -6,9 +6,11 @@
 
 use pulp::Simd;
 
+use super::certified::Certificate;
 use super::interface::IntactLimit;
 use super::measure::{Count, PARTS};
-use super::summation::{KindStrings, Sample, SampledString};
+use super::regular::Regular;
+use super::summation::{Sample, SampledString};
 use super::vector::Vector;
 use crate::lanes::{Lanes, Mask};
 use crate::mesh::element::Element;
@@ -19,16 +21,25 @@ use crate::potential::{CutPotential, PairShape};
 #[derive(Clone, Debug, PartialEq)]
 pub struct CarriedString {
     /// Shape functions of the second and the third node of either triangle, for the ends of the bond in the middle.
-    middle: [[f64; 2]; 2],
+    pub middle: [[f64; 2]; 2],
     /// Their change from bond to bond.
-    change: [[f64; 2]; 2],
+    pub change: [[f64; 2]; 2],
     /// From the middle to the last bond.
-    half: f64,
-    is_nearest: bool,
+    pub half: f64,
+    pub is_nearest: bool,
     /// Where it is looked at.
     all: Places,
-    /// Where it is looked at while it is hardly bent, and the change of its bonds along it up to which it is, in spacings.
-    few: Option<(Places, f64)>,
+    few: Option<Few>,
+}
+
+/// Where a string is looked at while it is hardly bent.
+#[derive(Clone, Debug, PartialEq)]
+struct Few {
+    places: Places,
+    /// Change of its bonds along it up to which it is hardly bent, in spacings.
+    bend: f64,
+    /// What all its bonds must be in addition.
+    regular: Option<Regular>,
 }
 
 /// Places along a string, counted from its middle.
@@ -44,7 +55,12 @@ struct Places {
 
 impl CarriedString {
     /// `corners`: the nodes of both triangles in their order here.
-    pub fn new(elements: &[Element; 2], corners: &[[usize; 3]; 2], sampled: &SampledString) -> Self {
+    pub fn new(
+        elements: &[Element; 2],
+        corners: &[[usize; 3]; 2],
+        sampled: &SampledString,
+        certificate: Option<Certificate>,
+    ) -> Self {
         let string = &sampled.string;
         let [first, last] = [0, string.count - 1].map(|t| string.ends(t));
         let half = 0.5 * f64::from(string.count - 1);
@@ -64,8 +80,53 @@ impl CarriedString {
             half,
             is_nearest: sampled.is_nearest,
             all: Places::new(&sampled.samples, half),
-            few: sampled.few_places().map(|(few, bend)| (Places::new(few, half), bend)),
+            few: match certificate.filter(|_| sampled.is_nearest) {
+                Some(certificate) => certificate.few(string.count).map(|(few, bend)| Few {
+                    places: Places::new(&few, half),
+                    bend,
+                    regular: Some(certificate.regular),
+                }),
+                None => sampled.few_places().map(|(few, bend)| Few {
+                    places: Places::new(few, half),
+                    bend,
+                    regular: None,
+                }),
+            },
         }
+    }
+}
+
+impl CarriedString {
+    /// Whether it is a single bond that stands for itself.
+    pub fn is_one_bond(&self) -> bool {
+        self.is_nearest && self.all.pairs.is_empty() && self.all.middle == 1.0
+    }
+
+    /// The sums over it in some interfaces. `UNTOUCHED`: all bonds are known to be in the range that the cutoff leaves
+    /// untouched.
+    #[inline(always)]
+    pub fn sum<S: PairShape, L: Simd, const MEASURED: bool, const UNTOUCHED: bool>(
+        &self,
+        simd: L,
+        law: &CutPotential<S>,
+        spacing: f64,
+        along: &Along<L>,
+    ) -> Powers<L, MEASURED> {
+        let Some(few) = &self.few else {
+            return along.sum::<S, MEASURED, UNTOUCHED>(simd, law, &self.all);
+        };
+        let limit = few.bend * spacing / (2.0 * self.half);
+        let mut is_hardly_bent = along.bend.is_below(limit * limit);
+        if let Some(regular) = &few.regular {
+            let [least, most] = along.range(self.half);
+            is_hardly_bent = is_hardly_bent.and(regular.holds(least, most));
+        }
+        let of_few = along.sum::<S, MEASURED, UNTOUCHED>(simd, law, &few.places);
+        if is_hardly_bent.every() {
+            return of_few;
+        }
+        let of_all = along.sum::<S, MEASURED, UNTOUCHED>(simd, law, &self.all);
+        of_few.where_or(is_hardly_bent, &of_all)
     }
 }
 
@@ -131,7 +192,7 @@ pub fn sum<S: PairShape, L: Simd, const MEASURED: bool, const N: usize>(
     simd: L,
     law: &CutPotential<S>,
     limit: &IntactLimit,
-    kind: &KindStrings,
+    strings: &[CarriedString],
     [first, second]: &[Ends<L>; 2],
     keep: Option<Mask<L>>,
 ) -> InterfaceSum<L> {
@@ -141,7 +202,7 @@ pub fn sum<S: PairShape, L: Simd, const MEASURED: bool, const N: usize>(
     let mut whole = zero;
     let [mut on_second, mut on_third, mut from_second, mut from_third] = [zero; 4];
     let across = second.node - first.node;
-    for string in &kind.carried {
+    for string in strings {
         let all = |number: f64| Lanes::all(simd, number);
         let [mut u, mut w] = [across, zero];
         if N > 1 {
@@ -156,28 +217,12 @@ pub fn sum<S: PairShape, L: Simd, const MEASURED: bool, const N: usize>(
             w = first.to_third.times_taken_from(all(string.change[0][1]), w);
             w = second.to_third.times_add(all(string.change[1][1]), w);
         }
-        let along = Along {
-            middle: u.squared(),
-            slope: u.dot(w) * 2.0,
-            bend: w.squared(),
-        };
+        let along = Along::new(u, w);
         if let (true, Some(test)) = (string.is_nearest, &limit.regular) {
             let [least, most] = along.range(string.half);
             regular = regular.and(test.holds(least, most));
         }
-        let mut sum = match &string.few {
-            None => along.sum::<S, MEASURED>(simd, law, &string.all),
-            Some((few, bend)) => {
-                let length = 2.0 * string.half;
-                let limit = bend * limit.spacing / length;
-                let is_hardly_bent = along.bend.is_below(limit * limit);
-                let of_few = along.sum::<S, MEASURED>(simd, law, few);
-                match is_hardly_bent.every() {
-                    true => of_few,
-                    false => of_few.where_or(is_hardly_bent, &along.sum(simd, law, &string.all)),
-                }
-            }
-        };
+        let mut sum = string.sum::<S, L, MEASURED, false>(simd, law, limit.spacing, &along);
         if let Some(keep) = keep {
             sum = sum.where_or(keep, &Powers::new(simd));
         }
@@ -220,37 +265,47 @@ pub fn sum<S: PairShape, L: Simd, const MEASURED: bool, const N: usize>(
 
 /// The squared length of the bonds along some strings, middle + slope t + bend t^2.
 #[derive(Clone, Copy)]
-struct Along<L: Simd> {
+pub struct Along<L: Simd> {
     middle: Lanes<L>,
     slope: Lanes<L>,
     bend: Lanes<L>,
 }
 
 impl<L: Simd> Along<L> {
+    /// Along bonds u + t w.
+    #[inline(always)]
+    pub fn new(u: Vector<L>, w: Vector<L>) -> Self {
+        Self {
+            middle: u.squared(),
+            slope: u.dot(w) * 2.0,
+            bend: w.squared(),
+        }
+    }
+
     /// A lower and an upper bound of the squared lengths up to a distance from the middle. A parabola dips below the lower of
     /// its ends by a quarter of the squared bend at most.
     #[inline(always)]
-    fn range(&self, half: f64) -> [Lanes<L>; 2] {
+    pub fn range(&self, half: f64) -> [Lanes<L>; 2] {
         let slope = self.slope.absolute();
         let most = slope.times_add(half, self.bend.times_add(half * half, self.middle));
         [slope.times_add(-half, self.middle), most]
     }
 
     #[inline(always)]
-    fn sum<S: PairShape, const MEASURED: bool>(
+    fn sum<S: PairShape, const MEASURED: bool, const UNTOUCHED: bool>(
         &self,
         simd: L,
         law: &CutPotential<S>,
         places: &Places,
     ) -> Powers<L, MEASURED> {
         match places.one_each {
-            true => self.sum_with::<S, MEASURED, true>(simd, law, places),
-            false => self.sum_with::<S, MEASURED, false>(simd, law, places),
+            true => self.sum_with::<S, MEASURED, UNTOUCHED, true>(simd, law, places),
+            false => self.sum_with::<S, MEASURED, UNTOUCHED, false>(simd, law, places),
         }
     }
 
     #[inline(always)]
-    fn sum_with<S: PairShape, const MEASURED: bool, const ONE_EACH: bool>(
+    fn sum_with<S: PairShape, const MEASURED: bool, const UNTOUCHED: bool, const ONE_EACH: bool>(
         &self,
         simd: L,
         law: &CutPotential<S>,
@@ -258,7 +313,7 @@ impl<L: Simd> Along<L> {
     ) -> Powers<L, MEASURED> {
         let mut sum = Powers::new(simd);
         if places.middle > 0.0 {
-            sum.zeroth = sum.held.slopes(simd, law, self.middle, Lanes::all(simd, places.middle));
+            sum.zeroth = sum.slopes::<S, UNTOUCHED>(simd, law, self.middle, places.middle);
             if !ONE_EACH {
                 sum.zeroth = sum.zeroth * places.middle;
             }
@@ -268,8 +323,8 @@ impl<L: Simd> Along<L> {
             let even = self.bend.mul_add(square, self.middle);
             let ahead = self.slope.mul_add(place, even);
             let back = self.slope.negative_mul_add(place, even);
-            let mut first = sum.held.slopes(simd, law, ahead, Lanes::all(simd, before));
-            let mut second = sum.held.slopes(simd, law, back, Lanes::all(simd, behind));
+            let mut first = sum.slopes::<S, UNTOUCHED>(simd, law, ahead, before);
+            let mut second = sum.slopes::<S, UNTOUCHED>(simd, law, back, behind);
             if !ONE_EACH {
                 first = first * before;
                 second = second * behind;
@@ -285,10 +340,10 @@ impl<L: Simd> Along<L> {
 
 /// Sums over a string of phi'/r times the powers 0, 1 and 2 of the place, and what its bonds hold.
 #[derive(Clone, Copy)]
-struct Powers<L: Simd, const MEASURED: bool> {
-    zeroth: Lanes<L>,
-    first: Lanes<L>,
-    second: Lanes<L>,
+pub struct Powers<L: Simd, const MEASURED: bool> {
+    pub zeroth: Lanes<L>,
+    pub first: Lanes<L>,
+    pub second: Lanes<L>,
     held: Count<L, MEASURED>,
 }
 
@@ -301,6 +356,21 @@ impl<L: Simd, const MEASURED: bool> Powers<L, MEASURED> {
             first: zero,
             second: zero,
             held: Count::new(simd),
+        }
+    }
+
+    /// phi'/r of bonds with these squared lengths, each of which stands for so many.
+    #[inline(always)]
+    fn slopes<S: PairShape, const UNTOUCHED: bool>(
+        &mut self,
+        simd: L,
+        law: &CutPotential<S>,
+        squared: Lanes<L>,
+        count: f64,
+    ) -> Lanes<L> {
+        match UNTOUCHED {
+            true => law.untouched_slopes(simd, squared),
+            false => self.held.slopes(simd, law, squared, Lanes::all(simd, count)),
         }
     }
 

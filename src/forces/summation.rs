@@ -3,11 +3,10 @@
 use nalgebra::DMatrix;
 use pulp::Simd;
 
-use super::strings::CarriedString;
 use crate::lanes::Lanes;
 use crate::lattice::triangular;
 use crate::mesh::element::Element;
-use crate::mesh::interfaces::{BondString, InterfaceKind, Interfaces};
+use crate::mesh::interfaces::BondString;
 
 /// A rule by which the sum over all bonds is taken. Each is one energy, and its forces are the gradient of that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -109,7 +108,7 @@ pub struct StringEnd {
 }
 
 impl SampledString {
-    fn new(summation: Summation, elements: &[Element; 2], string: BondString) -> Self {
+    pub fn new(summation: Summation, elements: &[Element; 2], string: BondString) -> Self {
         let rule = samples(summation, elements, &string);
         let every_bond = samples(Summation::Exact, elements, &string);
         // Where the few places are those of all bonds, nothing is gained.
@@ -156,89 +155,6 @@ impl SampledString {
             Some(limit) => all.where_or(squared_bend.is_below(limit), none),
         };
         [(&self.few, few), (&self.samples, all - few)]
-    }
-}
-
-/// The strings of one kind of interface.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct KindStrings {
-    pub strings: Vec<SampledString>,
-    /// How many nodes of each triangle they act on, and their corners: these first.
-    pub reach: usize,
-    pub corners: [[usize; 3]; 2],
-    /// The strings as these nodes carry them.
-    pub carried: Vec<CarriedString>,
-}
-
-impl KindStrings {
-    fn new(summation: Summation, kind: &InterfaceKind) -> Self {
-        let strings = kind.strings.iter();
-        // What is looked at nowhere still shows whether the lattice is regular.
-        let strings: Vec<SampledString> = strings
-            .map(|&string| SampledString::new(summation, &kind.elements, string))
-            .filter(|string| string.is_nearest || !string.samples.is_empty())
-            .collect();
-        let acts = |side: usize, corner: usize| {
-            let weight_at = |local: [i32; 2]| kind.elements[side].shape_functions(local)[corner];
-            strings.iter().any(|sampled| {
-                let last = sampled.string.count - 1;
-                [0, last]
-                    .iter()
-                    .any(|&t| weight_at(sampled.string.ends(t)[side]) != 0.0)
-            })
-        };
-        let corners = [0, 1].map(|side| {
-            let mut corners = [0, 1, 2];
-            // Stable: the corners on which strings act come first.
-            corners.sort_by_key(|&corner| !acts(side, corner));
-            corners
-        });
-        let reach = [0, 1].map(|side| (0..3).filter(|&corner| acts(side, corner)).count());
-        let carried = strings
-            .iter()
-            .map(|sampled| CarriedString::new(&kind.elements, &corners, sampled))
-            .collect();
-        Self {
-            strings,
-            reach: reach[0].max(reach[1]),
-            corners,
-            carried,
-        }
-    }
-}
-
-/// The strings of every kind of interface under a rule.
-pub struct SampledStrings {
-    of_kind: Vec<KindStrings>,
-    /// For each interface whether its strings count even when it is open; empty where none does.
-    kept: Vec<bool>,
-}
-
-impl SampledStrings {
-    pub fn new(interfaces: &Interfaces, summation: Summation) -> Self {
-        let of_kind = interfaces.kinds.iter().map(|kind| KindStrings::new(summation, kind));
-        let kept = interfaces.pairs.iter().map(|pair| !pair.severed);
-        Self {
-            kept: kept.filter(|_| summation.keeps_strings()).collect(),
-            of_kind: of_kind.collect(),
-        }
-    }
-
-    /// The strings of a kind of interface.
-    #[inline(always)]
-    pub fn of(&self, kind: u32) -> &KindStrings {
-        &self.of_kind[kind as usize]
-    }
-
-    /// Whether the strings of an interface count even when it is open.
-    #[inline(always)]
-    pub fn are_kept(&self, interface: usize) -> bool {
-        self.kept.get(interface) == Some(&true)
-    }
-
-    /// Whether a kind of interface has strings at all.
-    pub fn are_there(&self, kind: u32) -> bool {
-        !self.of_kind[kind as usize].strings.is_empty()
     }
 }
 
@@ -296,7 +212,7 @@ fn ends_and_gauss_points(count: i32, points: usize) -> Vec<Sample> {
 /// The Gauss rule of the sum over 0, 1, .. `count` - 1 from the recurrence of its orthogonal polynomials (the discrete
 /// Chebyshev or Gram polynomials): places are the eigenvalues of the Jacobi matrix, weights come from its eigenvectors
 /// ([Golub1969]).
-fn gauss_rule(count: usize, points: usize) -> Vec<Sample> {
+pub fn gauss_rule(count: usize, points: usize) -> Vec<Sample> {
     let sites = count as f64;
     let middle = 0.5 * (sites - 1.0);
     let jacobi = DMatrix::from_fn(points, points, |row, column| {

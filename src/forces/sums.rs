@@ -6,15 +6,67 @@ use rayon::prelude::*;
 
 use super::interface::{Pair, State};
 use super::measure::in_lengths;
-use super::tile;
-use super::{Affine, CHUNK, ForceError, Forces, Measure, Planes, contact};
+use super::tile::{self, Advance, Tile};
+use super::{Affine, CHUNK, ForceError, Forces, Measure, Planes, contact, include};
 use crate::domain::{Call, Halo};
 use crate::potential::{CutPotential, PairShape, with_law};
+
+/// How triangles move once their forces are certain.
+pub struct Motion<'a> {
+    /// Velocities of all nodes, nm/ps.
+    pub velocity: &'a mut Planes,
+    /// Where all nodes come to be, nm.
+    pub next: &'a mut Planes,
+    pub advance: &'a Advance<'a>,
+}
 
 impl Forces {
     /// Forces on all nodes of this rank, eV/nm. Brings the positions that they depend on from other ranks.
     pub fn compute(&mut self, position: &mut Planes, force: &mut Planes) -> Result<(), ForceError> {
-        self.sum::<false>(position, force, &mut Measure::default())
+        self.sum::<false>(position, force, &mut Measure::default(), None)?;
+        Ok(())
+    }
+
+    /// The same, and moves triangles of this rank into the next moment as soon as their forces are certain: those with the
+    /// positions still in the cache. Returns the others, ascending. Forces on these are known, and on atoms and on what is
+    /// [looked at](Self::look_at); those on the rest are not kept.
+    pub fn compute_and_move(
+        &mut self,
+        position: &mut Planes,
+        force: &mut Planes,
+        motion: Motion,
+    ) -> Result<Vec<u32>, ForceError> {
+        self.tell_certain();
+        let irregular = self.sum::<false>(position, force, &mut Measure::default(), Some(motion))?;
+        let mut left = Vec::new();
+        include(&mut left, irregular);
+        include(&mut left, self.uncertain.clone());
+        Ok(left)
+    }
+
+    /// Finds which triangles of this rank nothing but their strings and their inside can pull at, as long as no interface of
+    /// theirs is found irregular.
+    fn tell_certain(&mut self) {
+        if self.certain_is_current {
+            return;
+        }
+        let watched = self.watched.iter();
+        let of_watched = watched.flat_map(|&number| self.interfaces.pairs[number as usize].both());
+        let mut uncertain = contact::searched(&self.mesh, &self.interfaces, &self.loosened);
+        include(&mut uncertain, of_watched.collect());
+        let mine = self.domain.triangles();
+        uncertain.retain(|&triangle| mine.contains(&(triangle as usize)));
+        let ranges = |tile: &Tile| {
+            let inside = uncertain.iter().map(|&triangle| triangle as usize);
+            let inside = inside.filter(|triangle| tile.triangles.contains(triangle));
+            let mut from = tile.triangles.start;
+            let ends = inside.chain([tile.triangles.end]);
+            let ranges = ends.map(|end| std::mem::replace(&mut from, end + 1)..end);
+            ranges.filter(|range| !range.is_empty()).collect()
+        };
+        self.certain = self.tiles.iter().map(ranges).collect();
+        self.uncertain = uncertain;
+        self.certain_is_current = true;
     }
 
     /// The same forces to the bit, and what every element holds.
@@ -25,7 +77,8 @@ impl Forces {
         measure: &mut Measure,
     ) -> Result<(), ForceError> {
         measure.fit(self.mesh.elements.len());
-        self.sum::<true>(position, force, measure)
+        self.sum::<true>(position, force, measure, None)?;
+        Ok(())
     }
 
     /// Brings lists and states of interfaces up to date with the positions without giving forces.
@@ -39,22 +92,26 @@ impl Forces {
         position: &mut Planes,
         force: &mut Planes,
         measure: &mut Measure,
-    ) -> Result<(), ForceError> {
+        motion: Option<Motion>,
+    ) -> Result<Vec<u32>, ForceError> {
         with_law!(self.material.interaction, law => {
-            self.sum_with::<_, MEASURED>(&law, position, force, measure)
+            self.sum_with::<_, MEASURED>(&law, position, force, measure, motion)
         })
     }
 
     /// Sums, and sums again as often as any rank finds that interfaces are not what they were or that lists are out of
-    /// date. Contacts are summed with the lists at hand before that is known, because it mostly turns out well.
+    /// date. Contacts are summed with the lists at hand before that is known, because it mostly turns out well. Returns the
+    /// triangles whose interfaces were found irregular at first.
     fn sum_with<S: PairShape, const MEASURED: bool>(
         &mut self,
         law: &CutPotential<S>,
         position: &mut Planes,
         force: &mut Planes,
         measure: &mut Measure,
-    ) -> Result<(), ForceError> {
-        let mut irregular = self.sum_all_tiles::<S, MEASURED>(law, position, force, measure);
+        motion: Option<Motion>,
+    ) -> Result<Vec<u32>, ForceError> {
+        let mut irregular = self.sum_all_tiles::<S, MEASURED>(law, position, force, measure, motion);
+        let at_first = irregular.len();
         loop {
             let changed = self.changed_interfaces(&irregular, position);
             let mut disturbed = Vec::new();
@@ -80,7 +137,7 @@ impl Forces {
             self.agree();
             if self.domain.hears(Call::InterfaceChanged) {
                 let touched = self.change_interfaces(&changed);
-                irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &touched));
+                irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &touched, None));
             } else if self.domain.hears(Call::ListOutdated) {
                 let disturbed = self.domain.ranks().join(disturbed);
                 disturbed.into_iter().for_each(|atom| self.atoms.disturb(atom as usize));
@@ -90,7 +147,8 @@ impl Forces {
             }
         }
         self.contacts.add_to(&self.mesh, &self.domain, force, measure);
-        Ok(())
+        irregular.truncate(at_first);
+        Ok(irregular)
     }
 
     fn agree(&mut self) {
@@ -108,6 +166,7 @@ impl Forces {
         position: &mut Planes,
         force: &mut Planes,
         measure: &mut Measure,
+        mut motion: Option<Motion>,
     ) -> Vec<u32> {
         let inside: Vec<bool> = self.tiles.iter().map(|tile| !tile.is_at_border).collect();
         let at_border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
@@ -116,14 +175,22 @@ impl Forces {
         let mut computing = Duration::ZERO;
         let mut irregular = halo.exchange(&self.domain, position, |position| {
             let start = Instant::now();
-            let irregular = self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &inside);
+            let irregular =
+                self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &inside, motion.as_mut());
             computing = start.elapsed();
             irregular
         });
         let arrived = Instant::now();
         self.exchange_time += arrived - start - computing;
         self.halo = halo;
-        irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &at_border));
+        irregular.extend(self.sum_these_tiles::<S, MEASURED>(
+            law,
+            position,
+            force,
+            measure,
+            &at_border,
+            motion.as_mut(),
+        ));
         self.spent[0] += (computing + arrived.elapsed()).as_secs_f64();
         irregular
     }
@@ -136,6 +203,7 @@ impl Forces {
         force: &mut Planes,
         measure: &mut Measure,
         these: &[bool],
+        motion: Option<&mut Motion>,
     ) -> Vec<u32> {
         let field = tile::Field {
             arch: self.arch,
@@ -151,15 +219,40 @@ impl Forces {
         let [nodes, _] = self.domain.nodes();
         let lengths = self.tiles.iter().map(|tile| tile.triangles.len());
         let of_nodes = lengths.clone().map(|triangles| 3 * triangles);
-        let force = in_lengths(force.each_mut().map(|axis| &mut axis[nodes.clone()]), of_nodes);
+        let force = in_lengths(force.each_mut().map(|axis| &mut axis[nodes.clone()]), of_nodes.clone());
         let [held, _] = measure.split(self.mesh.triangles);
         let held = held.map(|plane| contact::part_of(plane, &mine));
-        let outputs = force.zip(in_lengths(held, lengths));
-        let tiles = self.tiles.iter().zip(outputs).zip(these).filter(|&(_, &asked)| asked);
-        let tiles: Vec<_> = tiles.map(|(tile, _)| tile).collect();
+        let outputs = force
+            .zip(in_lengths(held, lengths))
+            .map(|(force, held)| tile::Output { force, held });
+        let mut ahead: Vec<Option<tile::Ahead>> = Vec::new();
+        if let Some(Motion {
+            velocity,
+            next,
+            advance,
+        }) = motion
+        {
+            let [velocity, next] = [velocity, next].map(|planes| {
+                let planes = planes.each_mut().map(|axis| &mut axis[nodes.clone()]);
+                in_lengths(planes, of_nodes.clone())
+            });
+            let parts = velocity.zip(next).zip(&self.certain);
+            ahead.extend(parts.map(|((velocity, next), certain)| {
+                Some(tile::Ahead {
+                    certain,
+                    looked_at: &self.looked_at,
+                    velocity,
+                    next,
+                    advance: *advance,
+                })
+            }));
+        }
+        ahead.resize_with(self.tiles.len(), || None);
+        let tiles = self.tiles.iter().zip(outputs).zip(ahead).zip(these);
+        let tiles: Vec<_> = tiles.filter(|&(_, &asked)| asked).map(|(tile, _)| tile).collect();
         tiles
             .into_par_iter()
-            .flat_map_iter(|(tile, (force, held))| tile::sum::<S, MEASURED>(&field, tile, tile::Output { force, held }))
+            .flat_map_iter(|((tile, output), ahead)| tile::sum::<S, MEASURED>(&field, tile, output, ahead))
             .collect()
     }
 
@@ -214,11 +307,10 @@ impl Forces {
             domain: &self.domain,
             interfaces: &self.interfaces,
             states: &self.states,
-            loosened: &self.loosened,
             summation: self.summation,
             unlisted: self.limit.unlisted,
         };
-        let triangles = field.searched();
+        let triangles = contact::searched(&self.mesh, &self.interfaces, &self.loosened);
         self.check_sound(&triangles, position)?;
         self.contacts = contact::Contacts::search(&field, &triangles, &mut self.atoms, &self.material, position);
         let mut needed = [&self.bordering[..], self.contacts.needed()].concat();

@@ -5,13 +5,16 @@
 //! cache. The sum of a triangle begins with its inside and runs over its interfaces by rising number, wherever the tile
 //! begins, so that tiles leave no trace in the result.
 
+mod groups;
+mod rows;
+mod runs;
 mod sums;
 
-pub use sums::{Field, Output, sum};
+pub use sums::{Advance, Ahead, Field, Output, sum};
 
 use std::ops::Range;
 
-use super::summation::SampledStrings;
+use super::kinds::SampledStrings;
 use crate::mesh::Mesh;
 use crate::mesh::groups::Group;
 use crate::mesh::interfaces::Interfaces;
@@ -27,8 +30,13 @@ pub struct Tile {
     pub triangles: Range<usize>,
     /// Whether some of the interfaces are to triangles of other ranks.
     pub is_at_border: bool,
+    /// The number of its first group.
+    first_group: usize,
     groups: Vec<Group>,
     runs: Vec<Run>,
+    /// How many groups are in work at once, and how many nodes the largest has.
+    live: usize,
+    slot: usize,
 }
 
 /// Interfaces of one kind with consecutive numbers whose triangles have consecutive numbers in their groups.
@@ -41,10 +49,14 @@ struct Run {
     count: u32,
     /// The nodes of its first interface on which its strings act, of the first and of the second triangle.
     nodes: [[u32; 3]; 2],
+    /// Where the forces on these are gathered, if their triangles belong to the tile.
+    places: [[u32; 3]; 2],
     /// Whether the first and the second triangles belong to the tile.
     owned: [bool; 2],
     /// How many groups of the tile there are up to the last that it acts on.
     groups: usize,
+    /// How many of them no later run acts on.
+    ended: usize,
 }
 
 /// Cuts consecutive triangles of a mesh, those of one rank, into tiles.
@@ -58,7 +70,7 @@ pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, min
     for group in mesh.groups.of_range(&mine) {
         match tiles.last_mut().filter(|tile| tile.triangles.len() < length) {
             Some(tile) => tile.add(group),
-            None => tiles.push(Tile::of(group)),
+            None => tiles.push(Tile::of(group, mesh)),
         }
     }
     for (number, pair) in interfaces.pairs.iter().enumerate() {
@@ -76,8 +88,10 @@ pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, min
             number: number as u32,
             count: 1,
             nodes,
+            places: [[0; 3]; 2],
             owned: [true, one == other],
             groups: 0,
+            ended: 0,
         };
         let is_at_border = one.is_none() || other.is_none();
         if let Some(tile) = one {
@@ -90,6 +104,7 @@ pub fn tiles(mesh: &Mesh, interfaces: &Interfaces, strings: &SampledStrings, min
             tiles[tile].is_at_border |= is_at_border;
         }
     }
+    tiles.iter_mut().for_each(|tile| tile.finish(mesh));
     tiles
 }
 
@@ -99,12 +114,15 @@ pub fn of_triangle(tiles: &[Tile], triangle: usize) -> usize {
 }
 
 impl Tile {
-    fn of(group: &Group) -> Self {
+    fn of(group: &Group, mesh: &Mesh) -> Self {
         Self {
             triangles: group.elements.clone(),
             is_at_border: false,
+            first_group: mesh.groups.number_of(group.elements.start),
             groups: vec![group.clone()],
             runs: Vec::new(),
+            live: 0,
+            slot: 0,
         }
     }
 
@@ -115,11 +133,7 @@ impl Tile {
 
     /// Adds one interface, to the last run if it continues that.
     fn push(&mut self, mut entry: Run, mesh: &Mesh) {
-        let first_group = mesh.groups.number_of(self.triangles.start);
-        let both = [entry.first, entry.second].into_iter().zip(entry.owned);
-        let owned = both.filter(|&(_, owned)| owned);
-        let groups = owned.map(|(triangle, _)| mesh.groups.number_of(triangle as usize) - first_group + 1);
-        entry.groups = groups.max().unwrap_or(0);
+        entry.groups = self.groups_of(&entry, mesh).max().unwrap_or(0) + 1;
         let in_one_group = |a: u32, b: u32| mesh.groups.number_of(a as usize) == mesh.groups.number_of(b as usize);
         let follows = |run: &&mut Run| {
             let next = [run.first, run.second, run.number].map(|start| start + run.count);
@@ -133,5 +147,45 @@ impl Tile {
             Some(run) => run.count += 1,
             None => self.runs.push(entry),
         }
+    }
+
+    /// The groups that a run acts on, counted from the first of the tile.
+    fn groups_of(&self, run: &Run, mesh: &Mesh) -> impl Iterator<Item = usize> {
+        let first = self.first_group;
+        let both = [run.first, run.second].into_iter().zip(run.owned);
+        let owned = both.filter(|&(_, owned)| owned);
+        owned.map(move |(triangle, _)| mesh.groups.number_of(triangle as usize) - first)
+    }
+
+    /// Tells every run how many groups have come to their end with it, and where its forces are gathered.
+    fn finish(&mut self, mesh: &Mesh) {
+        let mut ended = self.groups.len();
+        for at in (0..self.runs.len()).rev() {
+            self.runs[at].ended = ended;
+            ended = self.groups_of(&self.runs[at], mesh).fold(ended, usize::min);
+        }
+        let [mut begun, mut ended] = [0; 2];
+        for run in &self.runs {
+            begun = begun.max(run.groups);
+            self.live = self.live.max(begun - ended);
+            ended = run.ended.min(begun);
+        }
+        self.live = self.live.max(1);
+        self.slot = self.groups.iter().map(|group| group.nodes().len()).max().unwrap_or(0);
+        for at in 0..self.runs.len() {
+            let run = self.runs[at];
+            let both = [run.first, run.second];
+            for side in (0..2).filter(|&side| run.owned[side]) {
+                let group = mesh.groups.number_of(both[side] as usize) - self.first_group;
+                let start = self.groups[group].nodes().start;
+                let place = |node: u32| (self.place(group) + node as usize - start) as u32;
+                self.runs[at].places[side] = run.nodes[side].map(place);
+            }
+        }
+    }
+
+    /// Where the forces on a group, counted from the first of the tile, are gathered.
+    fn place(&self, group: usize) -> usize {
+        group % self.live * self.slot
     }
 }

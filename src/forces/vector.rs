@@ -19,6 +19,22 @@ impl<L: Simd> Vector<L> {
         Self { x: zero, y: zero }
     }
 
+    /// The vectors of two planes from a place on.
+    #[inline(always)]
+    pub fn load(simd: L, x: &[f64], y: &[f64], from: usize) -> Self {
+        Self {
+            x: Lanes::load(simd, x, from),
+            y: Lanes::load(simd, y, from),
+        }
+    }
+
+    /// Adds these to the vectors of two planes from a place on.
+    #[inline(always)]
+    pub fn add_to(self, x: &mut [f64], y: &mut [f64], from: usize) {
+        (Lanes::load(self.x.simd(), x, from) + self.x).store(x, from, Lanes::<L>::COUNT);
+        (Lanes::load(self.x.simd(), y, from) + self.y).store(y, from, Lanes::<L>::COUNT);
+    }
+
     /// self times a factor
     #[inline(always)]
     pub fn times(self, factor: Lanes<L>) -> Self {

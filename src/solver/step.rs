@@ -4,10 +4,10 @@ use std::time::Instant;
 
 use super::schedule::Schedule;
 use super::{Phase, Solver, SolverError, time_step};
-use crate::forces::ForceError;
+use crate::forces::{ForceError, Motion, Planes};
 use crate::integrator;
 use crate::loading::Impulse;
-use crate::state::State;
+use crate::state::{State, Strip};
 
 /// Steps between comparisons of what ranks have spent.
 const COMPARE_EVERY: u64 = 100;
@@ -15,7 +15,7 @@ const COMPARE_EVERY: u64 = 100;
 impl Solver {
     /// One step of central differences.
     pub fn advance(&mut self) -> Result<(), SolverError> {
-        self.step_on()?;
+        self.step_on(false)?;
         self.settle();
         Ok(())
     }
@@ -27,8 +27,8 @@ impl Solver {
         }
     }
 
-    /// One step whose last half kick is left due.
-    pub(super) fn step_on(&mut self) -> Result<(), SolverError> {
+    /// One step whose last half kick is left due; where it `may_run_ahead`, the motion of the next step may be done, too.
+    pub(super) fn step_on(&mut self, may_run_ahead: bool) -> Result<(), SolverError> {
         let mut clock = Instant::now();
         let time_step = self.time_step;
         if self.due_kick.is_some_and(|due| due != 0.5 * time_step) {
@@ -37,15 +37,22 @@ impl Solver {
         let kicks = 1 + u32::from(self.due_kick.take().is_some());
         self.grip_impulse.add(&self.state, 0.5 * time_step);
         let nodes = self.forces.domain().nodes();
-        integrator::kick_and_drift(&mut self.state, &nodes, kicks, time_step);
+        if !std::mem::take(&mut self.is_ahead) {
+            let step = integrator::Step { kicks, time: time_step };
+            integrator::kick_and_drift(&mut self.state, &nodes, step);
+        }
         self.loading.absorb(&mut self.state, &nodes, time_step);
         self.step += 1;
         self.time += time_step;
         self.cost.book(Phase::Motion, &mut clock);
-        self.compute(self.will_be_observed())
-            .map_err(|source| self.blow_up(source))?;
+        if may_run_ahead && self.may_run_ahead() {
+            self.compute_and_move().map_err(|source| self.blow_up(source))?;
+        } else {
+            self.compute(self.will_be_observed())
+                .map_err(|source| self.blow_up(source))?;
+            self.due_kick = Some(0.5 * time_step);
+        }
         self.cost.book(Phase::Forces, &mut clock);
-        self.due_kick = Some(0.5 * time_step);
         self.grip_impulse.add(&self.state, 0.5 * time_step);
         self.cost.book(Phase::Motion, &mut clock);
         let [present, limit] = [self.time_step, self.stability_limit];
@@ -116,6 +123,53 @@ impl Solver {
     fn will_be_observed(&self) -> bool {
         let is_due = |schedule: &Schedule| schedule.is_due(self.time, self.time_step);
         is_due(&self.probes) || is_due(&self.snapshots) || self.ending().is_some()
+    }
+
+    /// Whether nobody looks at the state or changes the time step before the next step.
+    fn may_run_ahead(&self) -> bool {
+        let chosen = self.settings.time_step;
+        !(self.will_be_observed()
+            || self.forces.domain().is_called()
+            || chosen.is_to_be_checked(self.step, self.time_step, self.stability_limit)
+            || chosen.follows_forces(self.step)
+            || self.step.is_multiple_of(COMPARE_EVERY))
+    }
+
+    /// Forces at the present positions and the motion of the next step, which passes through the memory with them.
+    fn compute_and_move(&mut self) -> Result<(), ForceError> {
+        let step = integrator::Step {
+            kicks: 2,
+            time: self.time_step,
+        };
+        if self.inertias.is_empty() {
+            self.next = self.state.position.clone();
+            self.inertias = self.state.inertias(self.forces.mesh());
+        }
+        let State {
+            position,
+            velocity,
+            force,
+            mobility,
+            ..
+        } = &mut self.state;
+        let inertias = &self.inertias;
+        let advance = |strip: Strip, position: &Planes| {
+            let inertia = inertias[strip.group];
+            step.advance(strip, position, mobility, &inertia);
+        };
+        let motion = Motion {
+            velocity,
+            next: &mut self.next,
+            advance: &advance,
+        };
+        let left = self.forces.compute_and_move(position, force, motion)?;
+        step.advance_triangles(&mut self.state, &mut self.next, self.forces.mesh(), &left);
+        let [_, atoms] = self.forces.domain().nodes();
+        step.advance_atoms(&mut self.state, &mut self.next, atoms);
+        std::mem::swap(&mut self.state.position, &mut self.next);
+        self.is_ahead = true;
+        self.measured = false;
+        Ok(())
     }
 
     fn step_unstable(&self) -> SolverError {

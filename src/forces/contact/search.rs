@@ -24,26 +24,24 @@ pub struct Field<'a> {
     pub domain: &'a Domain,
     pub interfaces: &'a Interfaces,
     pub states: &'a [State],
-    /// Interfaces that are not tight, ascending.
-    pub loosened: &'a [u32],
     pub summation: Summation,
     /// Length of the shortest bonds of the perfect lattice that no string holds, in spacings.
     pub unlisted: f64,
 }
 
-impl Field<'_> {
-    /// Triangles that may meet something other than their intact neighbours, ascending.
-    pub fn searched(&self) -> Vec<u32> {
-        let loosened = self.loosened.iter().map(|&number| number as usize);
-        let beside = loosened.flat_map(|number| self.interfaces.pairs[number].both());
-        let mut is_searched = vec![false; self.mesh.triangles];
-        for triangle in self.interfaces.exposed.iter().copied().chain(beside) {
-            is_searched[triangle as usize] = true;
-        }
-        let numbers = 0..self.mesh.triangles as u32;
-        numbers.filter(|&triangle| is_searched[triangle as usize]).collect()
+/// Triangles that may meet something other than their intact neighbours, ascending, where these interfaces are not tight.
+pub fn searched(mesh: &Mesh, interfaces: &Interfaces, loosened: &[u32]) -> Vec<u32> {
+    let loosened = loosened.iter().map(|&number| number as usize);
+    let beside = loosened.flat_map(|number| interfaces.pairs[number].both());
+    let mut is_searched = vec![false; mesh.triangles];
+    for triangle in interfaces.exposed.iter().copied().chain(beside) {
+        is_searched[triangle as usize] = true;
     }
+    let numbers = 0..mesh.triangles as u32;
+    numbers.filter(|&triangle| is_searched[triangle as usize]).collect()
+}
 
+impl Field<'_> {
     /// Those of some triangles that may come within a distance of other triangles to which no intact interface joins them,
     /// or of atoms, and what bounds all that they meet.
     fn meeting(&self, triangles: &[u32], atoms: &[u32], distance: f64, position: &Planes) -> Vec<(u32, Bounds)> {
@@ -127,7 +125,7 @@ struct Candidates {
 type Lists = Vec<(Vec<u32>, Vec<Partner>)>;
 
 impl Contacts {
-    /// Lists the partners of every site of the triangles to be [searched](Field::searched), and of every atom, at these
+    /// Lists the partners of every site of the triangles to be [searched](searched), and of every atom, at these
     /// positions.
     pub fn search(
         field: &Field,

@@ -1,0 +1,119 @@
+//! Kicks and drifts of nodes side by side.
+
+use std::ops::Range;
+
+use pulp::{Simd, WithSimd};
+
+use crate::lanes::Lanes;
+
+/// Nodes along one axis: of single atoms or of triangles with lumped masses, or the `N` = 3 corners of triangles whose
+/// masses are coupled. Arithmetic rounds as that of single numbers does.
+pub struct Moving<'a, const N: usize> {
+    pub corners: [Nodes<'a>; N],
+    /// The mass that couples two corners over the lumped mass of one.
+    pub share: f64,
+    pub kicks: u32,
+    /// Time of each kick, ps.
+    pub kick: f64,
+    /// Time of the drift after them, ps.
+    pub drift: Option<f64>,
+}
+
+/// Nodes side by side.
+pub struct Nodes<'a> {
+    pub velocity: &'a mut [f64],
+    pub force: &'a [f64],
+    pub mobility: Mobility<'a>,
+    /// Where they are; `None`: where `next` tells.
+    pub position: Option<&'a [f64]>,
+    /// Where they come to be.
+    pub next: &'a mut [f64],
+}
+
+/// What a force is multiplied by to give the acceleration.
+#[derive(Clone, Copy)]
+pub enum Mobility<'a> {
+    Same(f64),
+    Each(&'a [f64]),
+}
+
+impl Mobility<'_> {
+    #[inline(always)]
+    fn load<L: Simd>(self, simd: L, from: usize, count: usize) -> Lanes<L> {
+        match self {
+            Self::Same(mobility) => Lanes::all(simd, mobility),
+            Self::Each(plane) => Lanes::load_some(simd, plane, from, count),
+        }
+    }
+
+    /// The same of some of the nodes.
+    fn part(self, part: Range<usize>) -> Self {
+        match self {
+            Self::Same(_) => self,
+            Self::Each(plane) => Self::Each(&plane[part]),
+        }
+    }
+}
+
+impl<'a> Nodes<'a> {
+    /// Nodes of triangles side by side, corner by corner, that move in place.
+    pub fn corners(self) -> [Self; 3] {
+        let count = self.force.len() / 3;
+        let [mut velocity, mut next] = [self.velocity, self.next].map(|plane| plane.chunks_mut(count));
+        [0, 1, 2].map(|corner| {
+            let part = corner * count..(corner + 1) * count;
+            Self {
+                velocity: velocity.next().unwrap_or_default(),
+                force: &self.force[part.clone()],
+                mobility: self.mobility.part(part),
+                position: None,
+                next: next.next().unwrap_or_default(),
+            }
+        })
+    }
+}
+
+impl<const N: usize> WithSimd for Moving<'_, N> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<L: Simd>(mut self, simd: L) {
+        let total = self.corners[0].force.len();
+        let whole = total - total % Lanes::<L>::COUNT;
+        for from in (0..whole).step_by(Lanes::<L>::COUNT) {
+            self.advance(simd, from, Lanes::<L>::COUNT);
+        }
+        if whole < total {
+            self.advance(simd, whole, total - whole);
+        }
+    }
+}
+
+impl<const N: usize> Moving<'_, N> {
+    #[inline(always)]
+    fn advance<L: Simd>(&mut self, simd: L, from: usize, count: usize) {
+        let mut shared = Lanes::all(simd, 0.0);
+        if N == 3 {
+            for corner in &self.corners {
+                shared = shared + Lanes::load_some(simd, corner.force, from, count);
+            }
+            shared = shared * self.share;
+        }
+        for corner in &mut self.corners {
+            let force = Lanes::load_some(simd, corner.force, from, count);
+            let push = corner.mobility.load(simd, from, count) * self.kick * (force - shared);
+            let mut velocity = Lanes::load_some(simd, corner.velocity, from, count);
+            for _ in 0..self.kicks {
+                velocity = velocity + push;
+            }
+            velocity.store(corner.velocity, from, count);
+            if let Some(time) = self.drift {
+                let position = match corner.position {
+                    Some(position) => Lanes::load_some(simd, position, from, count),
+                    None => Lanes::load_some(simd, corner.next, from, count),
+                };
+                (position + velocity * time).store(corner.next, from, count);
+            }
+        }
+    }
+}
