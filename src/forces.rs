@@ -8,6 +8,7 @@
 //! when neighbour lists were made.
 
 mod affine;
+mod ahead;
 mod bonds;
 mod bulk;
 mod certified;
@@ -28,10 +29,11 @@ mod tile;
 mod vector;
 
 pub use affine::{Affine, site_position};
+pub use ahead::{Left, Motion};
+pub use contact::AtomMotion;
 pub use measure::Measure;
 pub use share::burdens;
 pub use summation::Summation;
-pub use sums::Motion;
 
 use std::ops::Range;
 use std::time::{Duration, Instant};
@@ -101,6 +103,10 @@ pub struct Forces {
     certain_is_current: bool,
     /// Groups of triangles whose forces are looked at in every step.
     looked_at: Vec<bool>,
+    /// Nodes of atoms whose forces are, ascending.
+    looked_at_atoms: Vec<Range<usize>>,
+    /// Nodes of atoms that the last step has not moved on.
+    left_atoms: Vec<Range<usize>>,
     /// No sound coordinate is larger, nm.
     farthest: f64,
     /// The instructions that the processor has.
@@ -179,6 +185,8 @@ impl Forces {
             uncertain: Vec::new(),
             certain_is_current: false,
             looked_at: Vec::new(),
+            looked_at_atoms: Vec::new(),
+            left_atoms: Vec::new(),
             farthest: Self::FARTHEST * largest,
             arch: Arch::new(),
             first_cut,
@@ -227,15 +235,21 @@ impl Forces {
         self.contacts.forget();
     }
 
-    /// Keeps the forces on the groups of triangles with these nodes up to date in every step.
+    /// Keeps the forces on these nodes up to date in every step, and on the others of their groups of triangles.
     pub fn look_at(&mut self, nodes: impl Iterator<Item = u32>) {
         self.looked_at.resize(self.mesh.groups.all().len(), false);
+        let mut atoms = Vec::new();
         for node in nodes {
             let element = self.mesh.element_of_node(node as usize);
-            if element < self.mesh.triangles {
-                self.looked_at[self.mesh.groups.number_of(element)] = true;
+            match element < self.mesh.triangles {
+                true => self.looked_at[self.mesh.groups.number_of(element)] = true,
+                false => atoms.push(node as usize),
             }
         }
+        atoms.sort_unstable();
+        let ranges = atoms.chunk_by(|a, b| *b == a + 1);
+        self.looked_at_atoms
+            .extend(ranges.map(|range| range[0]..range[range.len() - 1] + 1));
     }
 
     pub fn interface_count(&self) -> usize {

@@ -10,29 +10,25 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use crate::mesh::Mesh;
-use crate::state::{Inertia, State, Strip};
+use crate::state::{Inertia, Leap, State, Strip};
 use moving::{Mobility, Moving, Nodes};
 
 /// Nodes in one parallel task.
 const CHUNK: usize = 4096;
 
-/// What moves nodes from one moment to the next: so many equal kicks over half of the time each, then a drift over the time.
+/// Fewer nodes than this are not worth a parallel task.
+const FEW: usize = 512;
+
+/// A leap of a time step, ps, that begins with so many kicks over half of it.
 ///
 /// Between two steps in which nobody looks, two kicks follow each other; together with the drift they pass through the
 /// memory once.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Step {
-    pub kicks: u32,
-    /// ps
-    pub time: f64,
-}
-
-/// Kicks and their time, and the time of the drift after them.
-#[derive(Clone, Copy)]
-struct Motion {
-    kicks: u32,
-    kick: f64,
-    drift: Option<f64>,
+pub fn leap(kicks: u32, time: f64) -> Leap {
+    Leap {
+        kicks,
+        kick: 0.5 * time,
+        drift: time,
+    }
 }
 
 /// Advances the velocities of ranges of nodes by the forces over a time.
@@ -40,156 +36,176 @@ struct Motion {
 /// Coupled masses are a block m ((1 - 3 c) I + c 1 1^T) a triangle, and its inverse takes c times the sum of the three
 /// forces off each before it divides by m (1 - 3 c).
 pub fn kick(state: &mut State, nodes: &[Range<usize>], time: f64) {
-    let motion = Motion {
+    let kick = Leap {
         kicks: 1,
         kick: time,
-        drift: None,
+        drift: 0.0,
     };
-    nodes.iter().for_each(|nodes| motion.advance(state, nodes));
+    nodes.iter().for_each(|nodes| advance(state, nodes, kick, false));
 }
 
-/// Moves ranges of nodes by a step.
-pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], step: Step) {
-    nodes.iter().for_each(|nodes| step.motion().advance(state, nodes));
+/// Moves ranges of nodes by a leap.
+pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], leap: Leap) {
+    nodes.iter().for_each(|nodes| advance(state, nodes, leap, true));
 }
 
-impl Step {
-    fn motion(self) -> Motion {
-        Motion {
-            kicks: self.kicks,
-            kick: 0.5 * self.time,
-            drift: Some(self.time),
-        }
-    }
+/// The same into planes of their own: from where nodes are and how fast they were, where and how fast they come to be. All of
+/// it is the same to the bit as [`kick_and_drift`].
+pub struct Ahead<'a> {
+    pub leap: Leap,
+    /// `None`: what the planes of velocities that are written hold.
+    pub before: Option<&'a Planes>,
+    pub mobility: &'a Planes,
+    /// How each group of triangles answers to forces.
+    pub inertias: &'a [Inertia],
+}
 
-    /// Moves triangles from these positions into the next: the same as [`kick_and_drift`] to the bit.
-    pub fn advance(self, strip: Strip, position: &[Vec<f64>; 2], mobility: &[Vec<f64>; 2], inertia: &Inertia) {
+/// A plane for x and one for y, an entry a node.
+type Planes = [Vec<f64>; 2];
+
+impl Ahead<'_> {
+    /// Moves triangles side by side from these positions.
+    pub fn strip(&self, strip: Strip, position: &Planes) {
+        let inertia = &self.inertias[strip.group];
         for (axis, corners) in strip.axes.into_iter().enumerate() {
             let corners = corners.map(|corner| Nodes {
+                before: self.before.map(|before| &before[axis][corner.nodes.clone()]),
                 velocity: corner.velocity,
                 force: corner.force,
                 mobility: match inertia.mobility {
                     Some(mobility) => Mobility::Same(mobility[axis]),
-                    None => Mobility::Each(&mobility[axis][corner.nodes.clone()]),
+                    None => Mobility::Each(&self.mobility[axis][corner.nodes.clone()]),
                 },
                 position: Some(&position[axis][corner.nodes]),
                 next: corner.next,
             });
-            self.motion().dispatch(corners, inertia.share);
+            dispatch(corners, self.leap, true, inertia.share);
         }
     }
 
-    /// Moves some triangles from their positions into the next, one by one, likewise.
-    pub fn advance_triangles(self, state: &mut State, next: &mut [Vec<f64>; 2], mesh: &Mesh, triangles: &[u32]) {
+    /// Moves some triangles one by one, given where all nodes are and the forces on them.
+    pub fn triangles(
+        &self,
+        mesh: &Mesh,
+        triangles: &[u32],
+        [position, force]: [&Planes; 2],
+        [velocity, next]: [&mut Planes; 2],
+    ) {
         for &triangle in triangles {
             let nodes = mesh.corners_of(triangle as usize);
-            let share = state.coupling_of(nodes[0]);
+            let share = self.inertias[mesh.groups.number_of(triangle as usize)].share;
             for axis in 0..2 {
-                let force = nodes.map(|node| state.force[axis][node]);
+                let forces = nodes.map(|node| force[axis][node]);
                 let shared = match share > 0.0 {
-                    true => (force[0] + force[1] + force[2]) * share,
+                    true => (forces[0] + forces[1] + forces[2]) * share,
                     false => 0.0,
                 };
-                for (node, force) in nodes.into_iter().zip(force) {
-                    let push = state.mobility[axis][node] * (0.5 * self.time) * (force - shared);
-                    let velocity = &mut state.velocity[axis][node];
-                    (0..self.kicks).for_each(|_| *velocity += push);
-                    next[axis][node] = state.position[axis][node] + *velocity * self.time;
+                for (node, force) in nodes.into_iter().zip(forces) {
+                    let before = self.before.map_or(velocity[axis][node], |before| before[axis][node]);
+                    let [mobility, position] = [self.mobility[axis][node], position[axis][node]];
+                    [velocity[axis][node], next[axis][node]] =
+                        self.leap.of_one(force - shared, mobility, before, position);
                 }
             }
         }
     }
 
-    /// Moves a range of single atoms from their positions into the next, likewise.
-    pub fn advance_atoms(self, state: &mut State, next: &mut [Vec<f64>; 2], nodes: Range<usize>) {
+    /// Moves a range of single atoms.
+    pub fn atoms(&self, nodes: &Range<usize>, [position, force]: [&Planes; 2], [velocity, next]: [&mut Planes; 2]) {
+        if nodes.len() < FEW {
+            for node in nodes.clone() {
+                for axis in 0..2 {
+                    let before = self.before.map_or(velocity[axis][node], |before| before[axis][node]);
+                    let [mobility, position] = [self.mobility[axis][node], position[axis][node]];
+                    [velocity[axis][node], next[axis][node]] =
+                        self.leap.of_one(force[axis][node], mobility, before, position);
+                }
+            }
+            return;
+        }
         for axis in 0..2 {
             let tasks = next[axis][nodes.clone()]
                 .par_chunks_mut(CHUNK)
-                .zip(state.velocity[axis][nodes.clone()].par_chunks_mut(CHUNK))
-                .zip(state.position[axis][nodes.clone()].par_chunks(CHUNK))
-                .zip(state.force[axis][nodes.clone()].par_chunks(CHUNK))
-                .zip(state.mobility[axis][nodes.clone()].par_chunks(CHUNK));
-            tasks.for_each(|((((next, velocity), position), force), mobility)| {
+                .zip(velocity[axis][nodes.clone()].par_chunks_mut(CHUNK))
+                .zip(nodes.clone().into_par_iter().step_by(CHUNK));
+            tasks.for_each(|((next, velocity), from)| {
+                let part = from..from + next.len();
                 let atoms = Nodes {
+                    before: self.before.map(|before| &before[axis][part.clone()]),
                     velocity,
-                    force,
-                    mobility: Mobility::Each(mobility),
-                    position: Some(position),
+                    force: &force[axis][part.clone()],
+                    mobility: Mobility::Each(&self.mobility[axis][part.clone()]),
+                    position: Some(&position[axis][part]),
                     next,
                 };
-                self.motion().dispatch_lumped(atoms);
+                dispatch_to([atoms], self.leap, true, 0.0);
             });
         }
     }
 }
 
-impl Motion {
-    /// A range begins and ends with whole groups of triangles.
-    fn advance(self, state: &mut State, nodes: &Range<usize>) {
-        let State {
-            position,
-            velocity,
-            force,
-            mobility,
-            coupled,
-            ..
-        } = state;
-        let coupled = coupled.iter().filter(|coupled| nodes.contains(&coupled.nodes.start));
-        let parts: Vec<(Range<usize>, f64)> = match coupled.clone().next() {
-            None => {
-                let starts = nodes.clone().step_by(CHUNK);
-                starts.map(|from| (from..nodes.end.min(from + CHUNK), 0.0)).collect()
-            }
-            Some(_) => coupled.map(|coupled| (coupled.nodes.clone(), coupled.share)).collect(),
-        };
-        // Both axes at once, so that threads wait for each other only once.
-        let mut tasks = Vec::with_capacity(2 * parts.len());
-        for (axis, (position, velocity)) in position.iter_mut().zip(velocity).enumerate() {
-            let [mut position, mut velocity] = [position, velocity].map(|plane| &mut plane[nodes.clone()]);
-            for (part, share) in &parts {
-                let [next, velocity] = [&mut position, &mut velocity].map(|plane| {
-                    let own = plane.split_off_mut(..part.len());
-                    own.expect("parts lie one after the other")
-                });
-                let [force, mobility] = [&force[axis][part.clone()], &mobility[axis][part.clone()]];
-                let nodes = Nodes {
-                    velocity,
-                    force,
-                    mobility: Mobility::Each(mobility),
-                    position: None,
-                    next,
-                };
-                tasks.push((nodes, *share));
-            }
+/// A range begins and ends with whole groups of triangles.
+fn advance(state: &mut State, nodes: &Range<usize>, leap: Leap, drifts: bool) {
+    let State {
+        position,
+        velocity,
+        force,
+        mobility,
+        coupled,
+        ..
+    } = state;
+    let coupled = coupled.iter().filter(|coupled| nodes.contains(&coupled.nodes.start));
+    let parts: Vec<(Range<usize>, f64)> = match coupled.clone().next() {
+        None => {
+            let starts = nodes.clone().step_by(CHUNK);
+            starts.map(|from| (from..nodes.end.min(from + CHUNK), 0.0)).collect()
         }
-        tasks.into_par_iter().for_each(|(nodes, share)| match share > 0.0 {
-            true => self.dispatch(nodes.corners(), share),
-            false => self.dispatch_lumped(nodes),
-        });
-    }
-
-    /// Moves the corners of triangles.
-    fn dispatch(self, corners: [Nodes; 3], share: f64) {
-        if share == 0.0 {
-            return corners.into_iter().for_each(|nodes| self.dispatch_lumped(nodes));
+        Some(_) => coupled.map(|coupled| (coupled.nodes.clone(), coupled.share)).collect(),
+    };
+    // Both axes at once, so that threads wait for each other only once.
+    let mut tasks = Vec::with_capacity(2 * parts.len());
+    for (axis, (position, velocity)) in position.iter_mut().zip(velocity).enumerate() {
+        let [mut position, mut velocity] = [position, velocity].map(|plane| &mut plane[nodes.clone()]);
+        for (part, share) in &parts {
+            let [next, velocity] = [&mut position, &mut velocity].map(|plane| {
+                let own = plane.split_off_mut(..part.len());
+                own.expect("parts lie one after the other")
+            });
+            let nodes = Nodes {
+                before: None,
+                velocity,
+                force: &force[axis][part.clone()],
+                mobility: Mobility::Each(&mobility[axis][part.clone()]),
+                position: None,
+                next,
+            };
+            tasks.push((nodes, *share));
         }
-        self.dispatch_to(corners, share);
     }
+    tasks.into_par_iter().for_each(|(nodes, share)| match share > 0.0 {
+        true => dispatch(nodes.corners(), leap, drifts, share),
+        false => dispatch_to([nodes], leap, drifts, 0.0),
+    });
+}
 
-    /// Nodes whose masses are coupled if there are three of them.
-    fn dispatch_to<const N: usize>(self, corners: [Nodes; N], share: f64) {
-        Arch::new().dispatch(Moving {
-            corners,
-            share,
-            kicks: self.kicks,
-            kick: self.kick,
-            drift: self.drift,
-        });
+/// Moves the corners of triangles.
+fn dispatch(corners: [Nodes; 3], leap: Leap, drifts: bool, share: f64) {
+    match share > 0.0 {
+        true => dispatch_to(corners, leap, drifts, share),
+        false => corners
+            .into_iter()
+            .for_each(|nodes| dispatch_to([nodes], leap, drifts, 0.0)),
     }
+}
 
-    fn dispatch_lumped(self, nodes: Nodes) {
-        self.dispatch_to([nodes], 0.0);
-    }
+/// Nodes whose masses are coupled if there are three of them.
+fn dispatch_to<const N: usize>(corners: [Nodes; N], leap: Leap, drifts: bool, share: f64) {
+    Arch::new().dispatch(Moving {
+        corners,
+        share,
+        leap,
+        drifts,
+    });
 }
 
 /// The square of what the forces accelerate a node of a range by, coupled masses as if they were not, nm^2/ps^4: the largest.
@@ -226,8 +242,7 @@ mod tests {
     }
 
     fn step(state: &mut State, time: f64) {
-        let step = Step { kicks: 1, time };
-        kick_and_drift(state, &state.every_node(), step);
+        kick_and_drift(state, &state.every_node(), leap(1, time));
         state.force[0][0] = -state.position[0][0];
         kick(state, &state.every_node(), 0.5 * time);
     }

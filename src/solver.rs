@@ -98,7 +98,9 @@ pub struct Solver {
     /// Whether the motion of the next step has been done with the forces of this one, and where it puts nodes.
     is_ahead: bool,
     next: Planes,
-    /// How each group of triangles answers to forces; empty before the first such step.
+    /// How fast nodes come to be there; empty without atoms.
+    next_velocity: Planes,
+    /// How each group of triangles answers to forces.
     inertias: Vec<Inertia>,
     grip_impulse: Impulse,
     measure: Measure,
@@ -188,6 +190,7 @@ impl Solver {
             due_kick: None,
             is_ahead: false,
             next: Planes::default(),
+            next_velocity: Planes::default(),
             inertias: Vec::new(),
             grip_impulse,
             measure,

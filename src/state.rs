@@ -1,5 +1,6 @@
 //! The state of a specimen in motion.
 
+mod leap;
 mod strip;
 
 use std::ops::Range;
@@ -7,6 +8,7 @@ use std::ops::Range;
 use crate::lanes;
 use crate::mesh::Mesh;
 
+pub use leap::Leap;
 pub use strip::Strip;
 
 /// Positions, velocities, forces and masses of the nodes, a plane (x, y) each. Units nm, ps, eV.

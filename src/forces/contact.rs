@@ -4,6 +4,7 @@
 //! evaluated twice, and in return every sum has one fixed order. A list holds the pairs within the cutoff and a skin;
 //! those beyond the cutoff add nothing, so the moment at which a list was made leaves no trace in the result.
 
+mod ahead;
 mod boxes;
 mod grid;
 pub mod lattice;
@@ -13,6 +14,7 @@ mod search;
 mod sums;
 pub mod tally;
 
+pub use ahead::{AtomMotion, AtomsAhead};
 pub use search::{Field, searched};
 
 use std::ops::Range;
@@ -28,7 +30,7 @@ use crate::domain::{Domain, Halo};
 use crate::lanes::MOST;
 use crate::mesh::Mesh;
 use crate::potential::{CutPotential, PairShape};
-use partners::Partners;
+use partners::{Part, Partners, Step};
 
 /// Sites that may have partners, their lists, and the sums of the last call.
 #[derive(Default)]
@@ -45,6 +47,8 @@ pub struct Contacts {
     needed: Vec<u32>,
     /// Atoms of this rank and partners of its sites.
     placed: Vec<Range<usize>>,
+    /// Those of them that are looked at one by one.
+    met: Vec<Range<usize>>,
     /// Nodes of what was searched, where they were, and how far one may go from there, nm.
     nodes: Vec<u32>,
     reference: Vec<[f64; 2]>,
@@ -65,6 +69,8 @@ pub struct SumField<'a, S> {
     pub arch: Arch,
     pub law: &'a CutPotential<S>,
     pub regular: Option<Regular>,
+    /// The same, where the cutoff leaves such bonds untouched.
+    pub untouched: Option<Regular>,
     pub mesh: &'a Mesh,
     pub domain: &'a Domain,
 }
@@ -118,16 +124,18 @@ impl Contacts {
     }
 
     /// Computes where the sites are and what force each feels, eV/nm. Puts the forces of atoms where they belong, and what
-    /// atoms hold if it is to be `MEASURED`; returns atoms that turn out to be disturbed.
+    /// atoms hold if it is to be `MEASURED`; returns atoms that turn out to be disturbed. Those that move `ahead` need not
+    /// have their forces put down; the nodes of the others are told, too.
     pub fn sum<S: PairShape, const MEASURED: bool>(
         &mut self,
         field: &SumField<S>,
         position: &Planes,
         force: &mut Planes,
         measure: &mut Measure,
-    ) -> Vec<u32> {
+        ahead: Option<AtomsAhead>,
+    ) -> (Vec<u32>, Vec<Range<usize>>) {
         self.spacing = field.mesh.spacing;
-        self.place_sites(field.mesh, position);
+        self.place_sites(field.mesh, position, ahead.is_none());
         let carried = self.carrier.len();
         let mut of_carried = std::mem::take(&mut self.of_carried);
         for (part, plane) in of_carried.iter_mut().enumerate() {
@@ -135,7 +143,8 @@ impl Contacts {
         }
         let mine = self.sites_of_triangles(field.domain.triangles());
         let own = of_carried.each_mut().map(|plane| part_of(plane, &mine));
-        self.sum_sites::<S, MEASURED>(field, mine, own);
+        let places = position.each_ref().map(|plane| &plane[3 * field.mesh.triangles..]);
+        self.sum_sites::<S, MEASURED>(field, mine, own, places, Vec::new());
         self.of_carried = of_carried;
         let triangles = field.mesh.triangles;
         let atoms = field.domain.atoms();
@@ -145,25 +154,38 @@ impl Contacts {
         let [energy, pairs, xx, yy, xy] = held.map(|plane| part_of(plane, &atoms));
         let of_atoms = [x, y, energy, pairs, xx, yy, xy];
         let sites = carried + atoms.start..carried + atoms.end;
-        let mut irregular = self.sum_sites::<S, MEASURED>(field, sites, of_atoms);
-        irregular.iter_mut().for_each(|site| *site -= carried as u32);
-        irregular
+        let first = nodes.start - (sites.start - carried);
+        let ahead = ahead.map_or_else(Vec::new, |ahead| ahead.tasks(sites.clone(), nodes, Self::TASK));
+        let (mut irregular, mut left) = (Vec::new(), Vec::new());
+        for (disturbed, stays) in self.sum_sites::<S, MEASURED>(field, sites, of_atoms, places, ahead) {
+            irregular.extend(disturbed.into_iter().map(|site| site - carried as u32));
+            left.extend(
+                stays
+                    .into_iter()
+                    .map(|sites: Range<usize>| first + sites.start - carried..first + sites.end - carried),
+            );
+        }
+        (irregular, left)
     }
 
-    /// Sums of consecutive sites; returns those with irregular bonds.
+    /// Sums of consecutive sites; for each task the sites with irregular bonds, and those that do not move `ahead`.
     fn sum_sites<S: PairShape, const MEASURED: bool>(
         &self,
         field: &SumField<S>,
         sites: Range<usize>,
         sums: [&mut [f64]; SUMS],
-    ) -> Vec<u32> {
+        atoms: [&[f64]; 2],
+        mut ahead: Vec<Option<ahead::Task>>,
+    ) -> Vec<(Vec<u32>, Vec<Range<usize>>)> {
         let parts = in_parts(sums, Self::TASK, sites.len().div_ceil(Self::TASK));
-        let tasks: Vec<_> = sites.clone().step_by(Self::TASK).zip(parts).collect();
-        let sum = |(from, sums): (usize, [&mut [f64]; SUMS])| {
+        let starts = sites.clone().step_by(Self::TASK);
+        ahead.resize_with(starts.len(), || None);
+        let tasks: Vec<_> = starts.zip(parts).zip(ahead).collect();
+        let sum = |((from, sums), ahead): ((usize, [&mut [f64]; SUMS]), Option<ahead::Task>)| {
             let task = from..sites.end.min(from + Self::TASK);
-            sums::sum_sites::<S, MEASURED>(field.arch, self, field.law, field.regular, task, sums)
+            sums::sum_sites::<S, MEASURED>(field, self, atoms, task, sums, ahead)
         };
-        tasks.into_par_iter().flat_map_iter(sum).collect()
+        tasks.into_par_iter().map(sum).collect()
     }
 
     /// Adds the last sums of the sites that triangles carry to the forces on nodes and to what triangles hold.
@@ -216,10 +238,45 @@ impl Contacts {
     /// Tells which atoms have places to follow.
     pub fn place_atoms(&mut self, domain: &Domain, halo: &Halo) {
         self.placed = halo.atoms(domain).chain([domain.atoms()]).collect();
+        let carried = self.carrier.len();
+        let mut is_met = vec![false; self.partners.site_count() - carried];
+        let mine = self.sites_of_triangles(domain.triangles());
+        let atoms = domain.atoms();
+        for sites in [mine, carried + atoms.start..carried + atoms.end] {
+            for part in self.partners.parts(sites) {
+                let sites = match part {
+                    Part::Alike { sites, steps } if self.are_atoms(&sites, steps) => continue,
+                    Part::Alike { sites, .. } | Part::Listed { sites, .. } => sites,
+                };
+                for site in sites {
+                    let mut meet = |site: usize| {
+                        if let Some(atom) = site.checked_sub(carried) {
+                            is_met[atom] = true;
+                        }
+                    };
+                    meet(site);
+                    self.partners.for_each_of(site, |partner| meet(partner.site()));
+                }
+            }
+        }
+        let mut met = Vec::new();
+        for (atom, _) in is_met.iter().enumerate().filter(|(_, met)| **met) {
+            match met.last_mut() {
+                Some(Range { end, .. }) if *end == atom => *end += 1,
+                _ => met.push(atom..atom + 1),
+            }
+        }
+        self.met = met;
     }
 
-    /// Brings the positions of the sites up to date.
-    fn place_sites(&mut self, mesh: &Mesh, position: &Planes) {
+    /// Whether some alike sites and all that they meet are atoms.
+    fn are_atoms(&self, sites: &Range<usize>, steps: &[Step]) -> bool {
+        let lowest = steps.iter().map(|step| step.by as isize).fold(0, isize::min);
+        sites.start.wrapping_add_signed(lowest) >= self.carrier.len() && sites.start >= self.carrier.len()
+    }
+
+    /// Brings the positions of the sites up to date: of all, or of those alone that are looked at one by one.
+    fn place_sites(&mut self, mesh: &Mesh, position: &Planes, all: bool) {
         let [mut site_x, mut site_y] = std::mem::take(&mut self.position);
         let sites = self.partners.site_count();
         site_x.resize(sites + MOST, 0.0);
@@ -235,7 +292,7 @@ impl Contacts {
         });
         for (atoms, nodes) in [atoms_x, atoms_y].into_iter().zip(position) {
             let nodes = &nodes[3 * mesh.triangles..];
-            for placed in &self.placed {
+            for placed in if all { &self.placed } else { &self.met } {
                 let planes = atoms[placed.clone()].par_chunks_mut(Self::TASK);
                 let planes = planes.zip(nodes[placed.clone()].par_chunks(Self::TASK));
                 planes.for_each(|(atoms, nodes)| atoms.copy_from_slice(nodes));

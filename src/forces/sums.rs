@@ -4,69 +4,19 @@ use std::time::{Duration, Instant};
 
 use rayon::prelude::*;
 
+use super::ahead::Motion;
 use super::interface::{Pair, State};
 use super::measure::in_lengths;
-use super::tile::{self, Advance, Tile};
-use super::{Affine, CHUNK, ForceError, Forces, Measure, Planes, contact, include};
+use super::tile;
+use super::{Affine, CHUNK, ForceError, Forces, Measure, Planes, contact};
 use crate::domain::{Call, Halo};
 use crate::potential::{CutPotential, PairShape, with_law};
-
-/// How triangles move once their forces are certain.
-pub struct Motion<'a> {
-    /// Velocities of all nodes, nm/ps.
-    pub velocity: &'a mut Planes,
-    /// Where all nodes come to be, nm.
-    pub next: &'a mut Planes,
-    pub advance: &'a Advance<'a>,
-}
 
 impl Forces {
     /// Forces on all nodes of this rank, eV/nm. Brings the positions that they depend on from other ranks.
     pub fn compute(&mut self, position: &mut Planes, force: &mut Planes) -> Result<(), ForceError> {
         self.sum::<false>(position, force, &mut Measure::default(), None)?;
         Ok(())
-    }
-
-    /// The same, and moves triangles of this rank into the next moment as soon as their forces are certain: those with the
-    /// positions still in the cache. Returns the others, ascending. Forces on these are known, and on atoms and on what is
-    /// [looked at](Self::look_at); those on the rest are not kept.
-    pub fn compute_and_move(
-        &mut self,
-        position: &mut Planes,
-        force: &mut Planes,
-        motion: Motion,
-    ) -> Result<Vec<u32>, ForceError> {
-        self.tell_certain();
-        let irregular = self.sum::<false>(position, force, &mut Measure::default(), Some(motion))?;
-        let mut left = Vec::new();
-        include(&mut left, irregular);
-        include(&mut left, self.uncertain.clone());
-        Ok(left)
-    }
-
-    /// Finds which triangles of this rank nothing but their strings and their inside can pull at, as long as no interface of
-    /// theirs is found irregular.
-    fn tell_certain(&mut self) {
-        if self.certain_is_current {
-            return;
-        }
-        let watched = self.watched.iter();
-        let of_watched = watched.flat_map(|&number| self.interfaces.pairs[number as usize].both());
-        let mut uncertain = contact::searched(&self.mesh, &self.interfaces, &self.loosened);
-        include(&mut uncertain, of_watched.collect());
-        let mine = self.domain.triangles();
-        uncertain.retain(|&triangle| mine.contains(&(triangle as usize)));
-        let ranges = |tile: &Tile| {
-            let inside = uncertain.iter().map(|&triangle| triangle as usize);
-            let inside = inside.filter(|triangle| tile.triangles.contains(triangle));
-            let mut from = tile.triangles.start;
-            let ends = inside.chain([tile.triangles.end]);
-            let ranges = ends.map(|end| std::mem::replace(&mut from, end + 1)..end);
-            ranges.filter(|range| !range.is_empty()).collect()
-        };
-        self.certain = self.tiles.iter().map(ranges).collect();
-        self.uncertain = uncertain;
-        self.certain_is_current = true;
     }
 
     /// The same forces to the bit, and what every element holds.
@@ -87,12 +37,12 @@ impl Forces {
         self.compute(&mut position.clone(), &mut unused)
     }
 
-    fn sum<const MEASURED: bool>(
+    pub(super) fn sum<const MEASURED: bool>(
         &mut self,
         position: &mut Planes,
         force: &mut Planes,
         measure: &mut Measure,
-        motion: Option<Motion>,
+        motion: Option<&mut Motion>,
     ) -> Result<Vec<u32>, ForceError> {
         with_law!(self.material.interaction, law => {
             self.sum_with::<_, MEASURED>(&law, position, force, measure, motion)
@@ -108,9 +58,9 @@ impl Forces {
         position: &mut Planes,
         force: &mut Planes,
         measure: &mut Measure,
-        motion: Option<Motion>,
+        mut motion: Option<&mut Motion>,
     ) -> Result<Vec<u32>, ForceError> {
-        let mut irregular = self.sum_all_tiles::<S, MEASURED>(law, position, force, measure, motion);
+        let mut irregular = self.sum_all_tiles::<S, MEASURED>(law, position, force, measure, motion.as_deref_mut());
         let at_first = irregular.len();
         loop {
             let changed = self.changed_interfaces(&irregular, position);
@@ -124,11 +74,17 @@ impl Forces {
                     arch: self.arch,
                     law,
                     regular: self.limit.regular,
+                    untouched: self.limit.untouched,
                     mesh: &self.mesh,
                     domain: &self.domain,
                 };
                 let start = Instant::now();
-                disturbed = self.contacts.sum::<S, MEASURED>(&field, position, force, measure);
+                let atoms = motion
+                    .as_deref_mut()
+                    .and_then(|motion| motion.of_atoms(&self.looked_at_atoms));
+                (disturbed, self.left_atoms) = self
+                    .contacts
+                    .sum::<S, MEASURED>(&field, position, force, measure, atoms);
                 self.spent[1] += start.elapsed().as_secs_f64();
                 if !disturbed.is_empty() {
                     self.domain.call(Call::ListOutdated);
@@ -166,7 +122,7 @@ impl Forces {
         position: &mut Planes,
         force: &mut Planes,
         measure: &mut Measure,
-        mut motion: Option<Motion>,
+        mut motion: Option<&mut Motion>,
     ) -> Vec<u32> {
         let inside: Vec<bool> = self.tiles.iter().map(|tile| !tile.is_at_border).collect();
         let at_border: Vec<bool> = inside.iter().map(|inside| !inside).collect();
@@ -176,21 +132,14 @@ impl Forces {
         let mut irregular = halo.exchange(&self.domain, position, |position| {
             let start = Instant::now();
             let irregular =
-                self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &inside, motion.as_mut());
+                self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &inside, motion.as_deref_mut());
             computing = start.elapsed();
             irregular
         });
         let arrived = Instant::now();
         self.exchange_time += arrived - start - computing;
         self.halo = halo;
-        irregular.extend(self.sum_these_tiles::<S, MEASURED>(
-            law,
-            position,
-            force,
-            measure,
-            &at_border,
-            motion.as_mut(),
-        ));
+        irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &at_border, motion));
         self.spent[0] += (computing + arrived.elapsed()).as_secs_f64();
         irregular
     }
@@ -226,13 +175,9 @@ impl Forces {
             .zip(in_lengths(held, lengths))
             .map(|(force, held)| tile::Output { force, held });
         let mut ahead: Vec<Option<tile::Ahead>> = Vec::new();
-        if let Some(Motion {
-            velocity,
-            next,
-            advance,
-        }) = motion
-        {
-            let [velocity, next] = [velocity, next].map(|planes| {
+        if let Some(motion) = motion {
+            let advance = motion.advance;
+            let [velocity, next] = [&mut *motion.velocity, &mut *motion.next].map(|planes| {
                 let planes = planes.each_mut().map(|axis| &mut axis[nodes.clone()]);
                 in_lengths(planes, of_nodes.clone())
             });
@@ -243,7 +188,7 @@ impl Forces {
                     looked_at: &self.looked_at,
                     velocity,
                     next,
-                    advance: *advance,
+                    advance,
                 })
             }));
         }

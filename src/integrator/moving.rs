@@ -5,6 +5,7 @@ use std::ops::Range;
 use pulp::{Simd, WithSimd};
 
 use crate::lanes::Lanes;
+use crate::state::Leap;
 
 /// Nodes along one axis: of single atoms or of triangles with lumped masses, or the `N` = 3 corners of triangles whose
 /// masses are coupled. Arithmetic rounds as that of single numbers does.
@@ -12,15 +13,16 @@ pub struct Moving<'a, const N: usize> {
     pub corners: [Nodes<'a>; N],
     /// The mass that couples two corners over the lumped mass of one.
     pub share: f64,
-    pub kicks: u32,
-    /// Time of each kick, ps.
-    pub kick: f64,
-    /// Time of the drift after them, ps.
-    pub drift: Option<f64>,
+    pub leap: Leap,
+    /// Whether the drift is done, too.
+    pub drifts: bool,
 }
 
 /// Nodes side by side.
 pub struct Nodes<'a> {
+    /// How fast they were; `None`: what `velocity` tells.
+    pub before: Option<&'a [f64]>,
+    /// How fast they come to be.
     pub velocity: &'a mut [f64],
     pub force: &'a [f64],
     pub mobility: Mobility<'a>,
@@ -63,6 +65,7 @@ impl<'a> Nodes<'a> {
         [0, 1, 2].map(|corner| {
             let part = corner * count..(corner + 1) * count;
             Self {
+                before: None,
                 velocity: velocity.next().unwrap_or_default(),
                 force: &self.force[part.clone()],
                 mobility: self.mobility.part(part),
@@ -101,18 +104,19 @@ impl<const N: usize> Moving<'_, N> {
         }
         for corner in &mut self.corners {
             let force = Lanes::load_some(simd, corner.force, from, count);
-            let push = corner.mobility.load(simd, from, count) * self.kick * (force - shared);
-            let mut velocity = Lanes::load_some(simd, corner.velocity, from, count);
-            for _ in 0..self.kicks {
-                velocity = velocity + push;
-            }
+            let mobility = corner.mobility.load(simd, from, count);
+            let before = match corner.before {
+                Some(before) => Lanes::load_some(simd, before, from, count),
+                None => Lanes::load_some(simd, corner.velocity, from, count),
+            };
+            let velocity = self.leap.velocities(force - shared, mobility, before);
             velocity.store(corner.velocity, from, count);
-            if let Some(time) = self.drift {
+            if self.drifts {
                 let position = match corner.position {
                     Some(position) => Lanes::load_some(simd, position, from, count),
                     None => Lanes::load_some(simd, corner.next, from, count),
                 };
-                (position + velocity * time).store(corner.next, from, count);
+                self.leap.positions(position, velocity).store(corner.next, from, count);
             }
         }
     }

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use super::schedule::Schedule;
 use super::{Phase, Solver, SolverError, time_step};
-use crate::forces::{ForceError, Motion, Planes};
+use crate::forces::{AtomMotion, ForceError, Motion, Planes};
 use crate::integrator;
 use crate::loading::Impulse;
 use crate::state::{State, Strip};
@@ -38,8 +38,7 @@ impl Solver {
         self.grip_impulse.add(&self.state, 0.5 * time_step);
         let nodes = self.forces.domain().nodes();
         if !std::mem::take(&mut self.is_ahead) {
-            let step = integrator::Step { kicks, time: time_step };
-            integrator::kick_and_drift(&mut self.state, &nodes, step);
+            integrator::kick_and_drift(&mut self.state, &nodes, integrator::leap(kicks, time_step));
         }
         self.loading.absorb(&mut self.state, &nodes, time_step);
         self.step += 1;
@@ -137,36 +136,62 @@ impl Solver {
 
     /// Forces at the present positions and the motion of the next step, which passes through the memory with them.
     fn compute_and_move(&mut self) -> Result<(), ForceError> {
-        let step = integrator::Step {
-            kicks: 2,
-            time: self.time_step,
-        };
-        if self.inertias.is_empty() {
-            self.next = self.state.position.clone();
+        if self.next[0].is_empty() {
             self.inertias = self.state.inertias(self.forces.mesh());
+            self.next = self.state.position.clone();
+            // Atoms may have to be moved again when lists are made anew: how fast they were is kept till then.
+            if self.forces.mesh().elements.len() > self.forces.mesh().triangles {
+                self.next_velocity = self.state.velocity.clone();
+            }
         }
         let State {
             position,
             velocity,
             force,
             mobility,
+            mass,
             ..
         } = &mut self.state;
-        let inertias = &self.inertias;
-        let advance = |strip: Strip, position: &Planes| {
-            let inertia = inertias[strip.group];
-            step.advance(strip, position, mobility, &inertia);
+        let leap = integrator::leap(2, self.time_step);
+        let mesh = self.forces.mesh();
+        let atoms = AtomMotion {
+            leap,
+            mobility: mass.last().map_or(0.0, |mass| 1.0 / mass),
         };
+        let has_atoms = mesh.elements.len() > mesh.triangles;
+        let (before, velocity): (Option<&Planes>, &mut Planes) = match has_atoms {
+            true => (Some(velocity), &mut self.next_velocity),
+            false => (None, velocity),
+        };
+        let inertias = &self.inertias;
+        let ahead = integrator::Ahead {
+            leap,
+            before,
+            mobility,
+            inertias,
+        };
+        let advance = |strip: Strip, position: &Planes| ahead.strip(strip, position);
         let motion = Motion {
+            before,
             velocity,
             next: &mut self.next,
             advance: &advance,
+            atoms,
         };
-        let left = self.forces.compute_and_move(position, force, motion)?;
-        step.advance_triangles(&mut self.state, &mut self.next, self.forces.mesh(), &left);
-        let [_, atoms] = self.forces.domain().nodes();
-        step.advance_atoms(&mut self.state, &mut self.next, atoms);
+        let (left, Motion { velocity, next, .. }) = self.forces.compute_and_move(position, force, motion)?;
+        ahead.triangles(
+            self.forces.mesh(),
+            &left.triangles,
+            [position, force],
+            [&mut *velocity, &mut *next],
+        );
+        for nodes in &left.atoms {
+            ahead.atoms(nodes, [position, force], [&mut *velocity, &mut *next]);
+        }
         std::mem::swap(&mut self.state.position, &mut self.next);
+        if has_atoms {
+            std::mem::swap(&mut self.state.velocity, &mut self.next_velocity);
+        }
         self.is_ahead = true;
         self.measured = false;
         Ok(())

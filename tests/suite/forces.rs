@@ -6,6 +6,7 @@ use cgaft::material::Material;
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::AtCutoff;
+use cgaft::relaxation::bond_strength;
 use cgaft::state::State;
 
 use super::specimens::{all_materials, all_meshes, displaced, lennard_jones, nearest_neighbours, slab, states};
@@ -120,10 +121,17 @@ fn as_many_gauss_points_as_bonds_are_the_sum_over_all_pairs() {
                 forces.compute(&mut position.clone(), &mut force).unwrap();
                 force
             });
-            assert!(gauss == exact, "{mesh_name}, {state}");
+            // Where every bond is summed, few places stand for all to a share of 1e-12 of the force at 1 % strain.
+            for (gauss, exact) in gauss.iter().flatten().zip(exact.iter().flatten()) {
+                let error = (gauss - exact).abs() / bond_strength(&material);
+                assert!(error < FEW_PLACES, "{mesh_name}, {state}: {error:e}");
+            }
         }
     }
 }
+
+/// Some ten strings of ten bonds, each of whose forces is good to 1e-12, and rounding.
+const FEW_PLACES: f64 = 1e-11;
 
 #[test]
 fn a_strict_rule_of_as_many_points_as_bonds_is_the_sum_over_all_pairs_also_where_triangles_have_parted() {

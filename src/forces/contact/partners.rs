@@ -66,7 +66,7 @@ impl Step {
         }
     }
 
-    fn from(self, site: usize) -> Partner {
+    pub fn from(self, site: usize) -> Partner {
         let pair = if self.is_nearest {
             PairKind::Nearest
         } else {

@@ -2,31 +2,36 @@
 
 use std::ops::Range;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::{Simd, WithSimd};
 
+use super::ahead::Task;
 use super::partners::{Part, Partner, Step};
-use super::{Contacts, SUMS};
+use super::{Contacts, SUMS, SumField};
 use crate::forces::measure::Count;
 use crate::forces::regular::Regular;
+use crate::forces::vector::Vector;
 use crate::lanes::{Lanes, MOST, Mask};
 use crate::potential::{CutPotential, PairShape};
 
 /// Forces on some consecutive sites, x and y, and half of what their bonds hold if it is to be `MEASURED`; returns those
-/// with a watched bond that is not that of a regular lattice.
+/// with a watched bond that is not that of a regular lattice, and those that do not move ahead. `atoms`: where they are.
 pub fn sum_sites<S: PairShape, const MEASURED: bool>(
-    arch: Arch,
+    field: &SumField<S>,
     contacts: &Contacts,
-    law: &CutPotential<S>,
-    regular: Option<Regular>,
+    atoms: [&[f64]; 2],
     sites: Range<usize>,
     sums: [&mut [f64]; SUMS],
-) -> Vec<u32> {
-    arch.dispatch(Sum::<S, MEASURED> {
+    ahead: Option<Task>,
+) -> (Vec<u32>, Vec<Range<usize>>) {
+    field.arch.dispatch(Sum::<S, MEASURED> {
         contacts,
-        law: *law,
-        regular,
+        law: *field.law,
+        regular: field.regular,
+        untouched: field.untouched,
+        atoms,
         sites,
         sums,
+        ahead,
     })
 }
 
@@ -34,8 +39,11 @@ struct Sum<'a, S, const MEASURED: bool> {
     contacts: &'a Contacts,
     law: CutPotential<S>,
     regular: Option<Regular>,
+    untouched: Option<Regular>,
+    atoms: [&'a [f64]; 2],
     sites: Range<usize>,
     sums: [&'a mut [f64]; SUMS],
+    ahead: Option<Task<'a>>,
 }
 
 /// The sums of several sites.
@@ -74,39 +82,154 @@ impl<L: Simd, const MEASURED: bool> SiteSum<L, MEASURED> {
 }
 
 impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
-    type Output = Vec<u32>;
+    type Output = (Vec<u32>, Vec<Range<usize>>);
 
     #[inline(always)]
-    fn with_simd<L: Simd>(mut self, simd: L) -> Vec<u32> {
+    fn with_simd<L: Simd>(mut self, simd: L) -> (Vec<u32>, Vec<Range<usize>>) {
         let lanes = Lanes::<L>::COUNT;
-        let mut irregular = Vec::new();
+        let (mut irregular, mut left) = (Vec::new(), Vec::new());
         let start = self.sites.start;
         let contacts = self.contacts;
+        let law = self.law;
         for part in contacts.partners.parts(self.sites.clone()) {
-            let (Part::Alike { sites, .. } | Part::Listed { sites, .. }) = &part;
-            for from in sites.clone().step_by(lanes) {
-                let count = lanes.min(sites.end - from);
-                let sum = match &part {
-                    Part::Alike { steps, .. } => self.sum_alike(simd, from, steps),
-                    Part::Listed { start, partners, .. } => self.sum_listed(
-                        simd,
-                        from,
-                        &start[from - sites.start..=from - sites.start + count],
-                        partners,
-                    ),
-                };
-                self.store(&sum, from - start, count);
-                if !sum.regular.every() {
-                    let regular = sum.regular.answers();
-                    let sites = (0..count)
-                        .filter(|&lane| !regular[lane])
-                        .map(|lane| (from + lane) as u32);
-                    irregular.extend(sites);
+            match part {
+                Part::Alike { sites, steps } if contacts.are_atoms(&sites, steps) => {
+                    let nearest = steps.iter().all(|step| step.is_nearest);
+                    let untouched = self.untouched.filter(|_| nearest && !MEASURED);
+                    let whole = sites.end - sites.len() % lanes;
+                    let mut stay = Vec::new();
+                    match (&untouched, steps.try_into(), &mut self.ahead) {
+                        (Some(regular), Ok(six), Some(ahead)) => {
+                            let atoms = sites.start - contacts.carrier.len()..whole - contacts.carrier.len();
+                            let row = Row::new(self.atoms, atoms, six);
+                            row.advance(simd, &law, regular, ahead, sites.start - start, &mut stay);
+                        }
+                        _ => stay.extend((0..whole - sites.start).step_by(lanes)),
+                    }
+                    for from in stay.into_iter().map(|at| sites.start + at) {
+                        if !self.sum_atoms(simd, &law, from, lanes, steps, &mut irregular) {
+                            left.push(from..from + lanes);
+                        }
+                    }
+                    if whole < sites.end {
+                        let count = sites.end - whole;
+                        if !self.sum_atoms(simd, &law, whole, count, steps, &mut irregular) {
+                            left.push(whole..sites.end);
+                        }
+                    }
+                }
+                Part::Alike { sites, steps } => {
+                    let mut partners = Vec::new();
+                    for from in sites.clone().step_by(lanes) {
+                        let count = lanes.min(sites.end - from);
+                        partners.clear();
+                        partners.extend(
+                            (from..from + count).flat_map(|site| steps.iter().map(move |step| step.from(site))),
+                        );
+                        let starts: Vec<u32> = (0..=count).map(|site| (site * steps.len()) as u32).collect();
+                        let sum = self.sum_listed(simd, from, &starts, &partners);
+                        self.store(&sum, from - start, count);
+                        note(&mut irregular, from, count, sum.regular);
+                    }
+                    left.push(sites);
+                }
+                Part::Listed {
+                    sites,
+                    start: starts,
+                    partners,
+                } => {
+                    for from in sites.clone().step_by(lanes) {
+                        let count = lanes.min(sites.end - from);
+                        let starts = &starts[from - sites.start..=from - sites.start + count];
+                        let sum = self.sum_listed(simd, from, starts, partners);
+                        self.store(&sum, from - start, count);
+                        note(&mut irregular, from, count, sum.regular);
+                    }
+                    left.push(sites);
                 }
             }
         }
-        irregular
+        (irregular, joined(left))
     }
+}
+
+/// Atoms side by side that have the six neighbours of the lattice, at the same steps in number.
+struct Row<'a> {
+    here: [&'a [f64]; 2],
+    there: [[&'a [f64]; 2]; 6],
+}
+
+impl<'a> Row<'a> {
+    /// From the places of all atoms.
+    fn new(places: [&'a [f64]; 2], atoms: Range<usize>, steps: &[Step; 6]) -> Self {
+        let part = |by: isize| {
+            let from = atoms.start.wrapping_add_signed(by);
+            places.map(|plane| &plane[from..][..atoms.len()])
+        };
+        Self {
+            here: part(0),
+            there: steps.map(|step| part(step.by as isize)),
+        }
+    }
+
+    /// Moves those on whose bonds are all regular, in the range that the cutoff leaves untouched, as many as there are lanes
+    /// at a time; the places of the others are noted. The first atom is at a place of its task.
+    #[inline(always)]
+    fn advance<S: PairShape, L: Simd>(
+        &self,
+        simd: L,
+        law: &CutPotential<S>,
+        regular: &Regular,
+        ahead: &mut Task,
+        place: usize,
+        stay: &mut Vec<usize>,
+    ) {
+        let [x, y] = self.here;
+        let mut at = 0;
+        while at + Lanes::<L>::COUNT <= x.len() {
+            let here = Vector::load(simd, x, y, at);
+            let mut force = Vector::zero(simd);
+            let mut are_regular = Mask::all(simd, true);
+            for k in 0..6 {
+                let [x, y] = self.there[k];
+                let bond = Vector::load(simd, x, y, at) - here;
+                let squared = bond.squared();
+                are_regular = are_regular.and(regular.holds(squared, squared));
+                force = bond.times_add(law.untouched_slopes(simd, squared), force);
+            }
+            if are_regular.every() {
+                ahead.advance(simd, place + at, Lanes::<L>::COUNT, force, here);
+            } else {
+                stay.push(at);
+            }
+            at += Lanes::<L>::COUNT;
+        }
+    }
+}
+
+/// Ranges of which those that follow each other are one.
+fn joined(ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
+    let mut joined: Vec<Range<usize>> = Vec::new();
+    for range in ranges {
+        match joined.last_mut() {
+            Some(last) if last.end == range.start => last.end = range.end,
+            _ => joined.push(range),
+        }
+    }
+    joined
+}
+
+/// Notes so many sites from one on that are not regular; whether all are.
+#[inline(always)]
+fn note<L: Simd>(irregular: &mut Vec<u32>, from: usize, count: usize, regular: Mask<L>) -> bool {
+    if regular.every() {
+        return true;
+    }
+    let regular = regular.answers();
+    let before = irregular.len();
+    let sites = (0..count).filter(|&lane| !regular[lane]);
+    irregular.extend(sites.map(|lane| (from + lane) as u32));
+    irregular.len() == before
 }
 
 impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
@@ -122,25 +245,53 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
         }
     }
 
-    /// Sites from one on with partners at the same steps in number.
+    /// Where so many atoms from a site on are.
     #[inline(always)]
-    fn sum_alike<L: Simd>(&self, simd: L, from: usize, steps: &[Step]) -> SiteSum<L, MEASURED> {
-        let [site_x, site_y] = &self.contacts.position;
-        let load = |plane: &[f64], site: usize| Lanes::load(simd, plane, site);
-        let [here_x, here_y] = [load(site_x, from), load(site_y, from)];
+    fn places<L: Simd>(&self, simd: L, from: usize, count: usize) -> Vector<L> {
+        let atom = from - self.contacts.carrier.len();
+        Vector {
+            x: Lanes::load_some(simd, self.atoms[0], atom, count),
+            y: Lanes::load_some(simd, self.atoms[1], atom, count),
+        }
+    }
+
+    /// Sums so many atoms from a site on, with partners at the same steps in number, and moves them on; false, and their
+    /// forces put down, where they stay.
+    #[inline(always)]
+    fn sum_atoms<L: Simd>(
+        &mut self,
+        simd: L,
+        law: &CutPotential<S>,
+        from: usize,
+        count: usize,
+        steps: &[Step],
+        irregular: &mut Vec<u32>,
+    ) -> bool {
+        let here = self.places(simd, from, count);
         let mut sum = SiteSum::new(simd);
         let one = Lanes::all(simd, 1.0);
         for step in steps {
-            let other = from.wrapping_add_signed(step.by as isize);
-            let [dx, dy] = [load(site_x, other) - here_x, load(site_y, other) - here_y];
-            let squared = dx.mul_add(dx, dy * dy);
+            let there = self.places(simd, from.wrapping_add_signed(step.by as isize), count);
+            let bond = there - here;
+            let squared = bond.squared();
             if let (true, Some(test)) = (step.is_nearest, &self.regular) {
                 sum.regular = sum.regular.and(test.holds(squared, squared));
             }
-            let pull = sum.count.slopes(simd, &self.law, squared, one);
-            sum.add(pull, [dx, dy]);
+            let pull = sum.count.slopes(simd, law, squared, one);
+            sum.add(pull, [bond.x, bond.y]);
         }
-        sum
+        let is_regular = note(irregular, from, count, sum.regular);
+        let place = from - self.sites.start;
+        if let (Some(ahead), true) = (&mut self.ahead, is_regular) {
+            let force = Vector {
+                x: sum.force[0],
+                y: sum.force[1],
+            };
+            ahead.advance(simd, place, count, force, here);
+            return true;
+        }
+        self.store(&sum, place, count);
+        false
     }
 
     /// Consecutive sites from one on with lists of their own, which start at these places. Every lane goes through its own
@@ -149,7 +300,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
     fn sum_listed<L: Simd>(&self, simd: L, from: usize, start: &[u32], partners: &[Partner]) -> SiteSum<L, MEASURED> {
         let contacts = self.contacts;
         let [site_x, site_y] = &contacts.position;
-        let [here_x, here_y] = [site_x, site_y].map(|plane| Lanes::load(simd, plane, from));
+        let [here_x, here_y] = [Lanes::load(simd, site_x, from), Lanes::load(simd, site_y, from)];
         let longest = start.windows(2).map(|ends| ends[1] - ends[0]).max().unwrap_or(0);
         let mut sum = SiteSum::new(simd);
         for slot in 0..longest {

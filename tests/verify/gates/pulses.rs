@@ -1,7 +1,7 @@
 //! Speeds of long waves, from pulses that run through atoms.
 
 use cgaft::forces::Forces;
-use cgaft::integrator::{Step, kick, kick_and_drift};
+use cgaft::integrator::{kick, kick_and_drift, leap};
 use cgaft::mesh::Mesh;
 use cgaft::state::State;
 
@@ -53,14 +53,7 @@ fn speed(along: usize, displaced: usize, expected: f64) -> f64 {
     let mut time = 0.0;
     let moments = READ_AFTER.map(|distance| {
         while time * expected < distance * material.spacing {
-            kick_and_drift(
-                &mut state,
-                &nodes,
-                Step {
-                    kicks: 1,
-                    time: TIME_STEP,
-                },
-            );
+            kick_and_drift(&mut state, &nodes, leap(1, TIME_STEP));
             compute(&mut state);
             kick(&mut state, &nodes, 0.5 * TIME_STEP);
             time += TIME_STEP;

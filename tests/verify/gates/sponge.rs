@@ -1,7 +1,7 @@
 //! What sponges before the grips send back.
 
 use cgaft::forces::Forces;
-use cgaft::integrator::{Step, kick, kick_and_drift};
+use cgaft::integrator::{kick, kick_and_drift, leap};
 use cgaft::loading::{Grip, Layers, Sponge, Stretching};
 use cgaft::state::State;
 
@@ -60,14 +60,7 @@ fn reflection(wavelength: f64, with_sponge: bool) -> f64 {
     compute(&mut state);
     let nodes = state.every_node();
     while time * WAVE_SPEED < high - low {
-        kick_and_drift(
-            &mut state,
-            &nodes,
-            Step {
-                kicks: 1,
-                time: TIME_STEP,
-            },
-        );
+        kick_and_drift(&mut state, &nodes, leap(1, TIME_STEP));
         grips.absorb(&mut state, &nodes, TIME_STEP);
         compute(&mut state);
         kick(&mut state, &nodes, 0.5 * TIME_STEP);

@@ -6,7 +6,7 @@
 use std::collections::HashMap;
 
 use cgaft::forces::Forces;
-use cgaft::integrator::{Step, kick, kick_and_drift};
+use cgaft::integrator::{kick, kick_and_drift, leap};
 use cgaft::lattice::triangular;
 use cgaft::loading::{Grip, Stretching};
 use cgaft::mesh::Mesh;
@@ -90,7 +90,7 @@ fn a_centre_crack_stays_symmetric_until_it_starts() {
         let nodes = state.every_node();
         let [mut until_start, mut later, mut time, mut broken] = [0.0f64, 0.0, 0.0, 0.0];
         while broken < 40.0 && time * RATE < 0.1 {
-            kick_and_drift(&mut state, &nodes, Step { kicks: 1, time: step });
+            kick_and_drift(&mut state, &nodes, leap(1, step));
             broken = compute(&mut state) as f64;
             kick(&mut state, &nodes, 0.5 * step);
             time += step;
