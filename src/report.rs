@@ -31,6 +31,7 @@ use rayon::prelude::*;
 
 use crate::analysis::comparison::{self, Candidate, Difference};
 use crate::analysis::{self, Findings};
+use crate::durable;
 use crate::record::RecordError;
 
 /// What went wrong while a report was made.
@@ -243,7 +244,7 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
 }
 
 fn save(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
-    fs::write(path, bytes).map_err(|source| ReportError::Write {
+    durable::write(path, bytes).map_err(|source| ReportError::Write {
         path: path.to_owned(),
         source,
     })

@@ -15,6 +15,7 @@ use signal_hook::flag;
 use super::progress;
 use super::terminal::{self, warn};
 use crate::domain::{self, Ranks};
+use crate::durable;
 use crate::executor::{Progress, exit};
 use crate::plan::{self, CaseId, Plan, PlannedCase};
 use crate::setup::{self, RunCaseError};
@@ -163,7 +164,7 @@ fn refuse_another_case(case: &Case, path: &Path, into: &Path) -> Result<(), Solv
         };
     }
     let text =
-        std::fs::read(path).map_err(|error| SolveError::Input(format!("cannot read {}: {error}", path.display())))?;
+        durable::read(path).map_err(|error| SolveError::Input(format!("cannot read {}: {error}", path.display())))?;
     Ok(store::write(&kept, &text)?)
 }
 

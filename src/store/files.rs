@@ -32,23 +32,19 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// The value in a JSON file; the error is told in words.
 pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
     let name = path.file_name().unwrap_or_default().display();
-    let text = fs::read_to_string(path).map_err(|error| format!("{name} cannot be read ({error})"))?;
+    let text = durable::read_to_string(path).map_err(|error| format!("{name} cannot be read ({error})"))?;
     serde_json::from_str(&text).map_err(|error| format!("{name} is damaged ({error})"))
 }
 
 /// BLAKE3 of what is in a file, hexadecimal.
 pub fn checksum(path: &Path) -> io::Result<String> {
     let mut hasher = blake3::Hasher::new();
-    hasher.update_reader(File::open(path)?)?;
+    hasher.update_reader(durable::open(path)?)?;
     Ok(hasher.finalize().to_string())
 }
 
 pub fn open_lock(path: &Path) -> Result<File, StoreError> {
-    File::options()
-        .create(true)
-        .append(true)
-        .open(path)
-        .map_err(StoreError::write(path))
+    durable::append(path).map_err(StoreError::write(path))
 }
 
 /// The locked file, or `None` while another process holds it.
@@ -63,7 +59,7 @@ pub fn try_lock(path: &Path) -> Result<Option<File>, StoreError> {
 
 /// Whether another process holds the lock; leaves no trace.
 pub fn is_locked(path: &Path) -> bool {
-    let Ok(file) = File::open(path) else { return false };
+    let Ok(file) = durable::open(path) else { return false };
     matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
 }
 

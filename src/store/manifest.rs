@@ -1,9 +1,12 @@
 //! The small JSON files that tell what became of a case.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
+
+use crate::durable;
 
 /// Provenance of a published run: `manifest.json`, written last, never edited.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -151,7 +154,7 @@ pub struct Failure {
 
 /// Name of this machine.
 pub fn host() -> Option<String> {
-    let name = std::fs::read_to_string("/proc/sys/kernel/hostname")
+    let name = durable::read_to_string(Path::new("/proc/sys/kernel/hostname"))
         .ok()
         .or_else(|| std::env::var("HOSTNAME").ok())?;
     Some(name.trim().to_owned()).filter(|name| !name.is_empty())

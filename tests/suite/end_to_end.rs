@@ -3,6 +3,7 @@
 mod beside;
 mod checkpoint;
 mod damage;
+mod endless;
 mod failure;
 mod full;
 mod interrupt;

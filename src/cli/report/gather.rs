@@ -1,6 +1,5 @@
 //! What the store holds, as the report wants it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde_json::Value;
@@ -9,6 +8,7 @@ use crate::analysis::series::{Series, Setting};
 use crate::cli::specimen::end;
 use crate::cli::survey::{Entry, Survey};
 use crate::domain::MessageCost;
+use crate::durable;
 use crate::plan::{self, SCALING};
 use crate::record::{self, CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE};
 use crate::report::{CaseResult, Failure, Film, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
@@ -140,7 +140,7 @@ fn set_kept(result: &mut CaseResult, folder: &Path) {
 fn digest(folder: &Path) -> Option<String> {
     let mut hash = blake3::Hasher::new();
     for name in [SERIES_FILE, FIELDS_FILE, CHECKPOINT_FILE] {
-        hash.update(&fs::read(folder.join(name)).ok()?);
+        hash.update(&durable::read(&folder.join(name)).ok()?);
     }
     Some(hash.finalize().to_hex().to_string())
 }
