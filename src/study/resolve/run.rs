@@ -176,6 +176,13 @@ impl Check<'_> {
             self.add(Finding::at(place, message).help("start just below the strain at which the crack starts"));
             return None;
         }
+        if start.value < 0.0 {
+            let message = format!(
+                "a start at a strain of {start} is compression, in which the crystal may fold and the faces of a crack touch"
+            );
+            self.add(Finding::at(place, message).help("start at 0 % or above, such as 0.4 %: the grips only part"));
+            return None;
+        }
         let end = until.right().and_then(|until| match until.strain {
             Given::Right(end, place) => Some((end, place)),
             _ => None,

@@ -153,9 +153,8 @@ fn a_whole_script_is_shell_and_holds_the_results_folder_as_it_is() {
     assert!(place.chars().all(plain), "{place} needs quotes itself");
 
     let options: Vec<&str> = script.lines().filter(|line| line.starts_with("#SBATCH")).collect();
-    let output = format!(
-        "#SBATCH \"--output={place}/it's \\\"my\\\" $HOME; rm #1 %%A \\\\ end/slab/.slurm/%A_%a.out\""
-    );
+    let output =
+        format!("#SBATCH \"--output={place}/it's \\\"my\\\" $HOME; rm #1 %%A \\\\ end/slab/.slurm/%A_%a.out\"");
     assert_eq!(
         options,
         [
@@ -178,10 +177,19 @@ fn a_whole_script_is_shell_and_holds_the_results_folder_as_it_is() {
 
     // The words that bash hands over, one a line.
     let told = script.replace("\nexec ", "\nprintf '%s\\n' ");
-    let words = Command::new("bash").arg("-c").arg(&told).env("SLURM_ARRAY_TASK_ID", "1").output().unwrap();
+    let words = Command::new("bash")
+        .arg("-c")
+        .arg(&told)
+        .env("SLURM_ARRAY_TASK_ID", "1")
+        .output()
+        .unwrap();
     let words = String::from_utf8(words.stdout).unwrap();
     let words: Vec<&str> = words.lines().collect();
-    let second = script.lines().find_map(|line| line.strip_suffix(" # B")).unwrap().trim();
+    let second = script
+        .lines()
+        .find_map(|line| line.strip_suffix(" # B"))
+        .unwrap()
+        .trim();
     assert_eq!(
         words[1..],
         ["slurm-job", "--results", &format!("{place}/{AWKWARD}"), "slab", second]

@@ -136,7 +136,11 @@ fn any_flipped_bit_of_any_file_of_a_run_is_found() {
 fn interrupted() -> (Workspace, &'static str) {
     let place = Workspace::restless();
     let run = Program::start(&mut place.command("run", &["--only", "atoms"]), &place);
-    wait_for("a checkpoint", || files(&place.results()).iter().any(|path| path.ends_with("checkpoint.h5")));
+    wait_for("a checkpoint", || {
+        files(&place.results())
+            .iter()
+            .any(|path| path.ends_with("checkpoint.h5"))
+    });
     send("-INT", run.child.id());
     run.wait(PATIENCE).ended_with(130);
     (place, "attempt.json")

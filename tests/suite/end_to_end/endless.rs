@@ -29,7 +29,11 @@ fn a_pipe_in_the_place_of_the_format_mark_is_told_at_once() {
             .wait(PROMPT)
             .ended_with(2);
         for words in ["store.json: it is a pipe or a device and no file", "--results DIR"] {
-            assert!(told.stderr.contains(words), "{command}: no `{words}` in {}", told.stderr);
+            assert!(
+                told.stderr.contains(words),
+                "{command}: no `{words}` in {}",
+                told.stderr
+            );
         }
     }
 }
@@ -57,7 +61,11 @@ fn no_command_waits_for_a_pipe_in_the_place_of_a_file_of_a_run() {
     ];
     for file in places {
         let place = Workspace::new();
-        let copied = Command::new("cp").arg("-a").arg(whole.path("results")).arg(place.path("results")).status();
+        let copied = Command::new("cp")
+            .arg("-a")
+            .arg(whole.path("results"))
+            .arg(place.path("results"))
+            .status();
         assert!(copied.unwrap().success());
         let path = place.results().join(&file);
         if file.contains(".partial") {
