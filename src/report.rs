@@ -67,6 +67,14 @@ impl Analysed<'_> {
         &self.result.name
     }
 
+    /// Whether there is a crack to be followed; before the set-up of a case its choices tell.
+    fn has_crack(&self) -> bool {
+        match &self.result.setting {
+            Some(setting) => setting.crack_row.is_some(),
+            None => self.result.choices.iter().any(|(key, _)| key.starts_with("crack.")),
+        }
+    }
+
     /// nm/ps
     fn rayleigh_speed(&self) -> Option<f64> {
         self.result.setting.as_ref().map(|setting| setting.rayleigh_speed)

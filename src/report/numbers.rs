@@ -42,6 +42,10 @@ pub fn signed_percent(share: f64) -> String {
     }
 }
 
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
 /// The nearest number with so many significant decimal digits.
 pub fn round_significant(value: f64, digits: usize) -> f64 {
     format!("{value:.*e}", digits.saturating_sub(1))
