@@ -35,7 +35,13 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
     let needed = estimates.iter().map(|estimate| estimate.disk_bytes).sum();
     let of_disk = room::warning(Path::new("results"), needed);
     let mut warnings = specimen::warnings(&laid);
-    warnings.extend(of_runs.into_iter().chain(of_disk));
+    let most_ranks = plan
+        .cases
+        .iter()
+        .filter_map(|planned| planned.case.execution.ranks)
+        .max();
+    let of_ranks = most_ranks.and_then(warnings::of_ranks);
+    warnings.extend(of_runs.into_iter().chain(of_ranks).chain(of_disk));
     let json = json!({ "study": plan.study, "cases": cases, "warnings": warnings });
     let terminal = Terminal {
         quiet: false,

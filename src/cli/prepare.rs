@@ -49,10 +49,10 @@ pub struct CrewChoice {
     /// Cases at once [default: what ends first without more ranks and threads than cores; on Slurm, as many as it starts]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
-    /// MPI ranks a case [default: what the study says, else 1]
+    /// MPI ranks per case [default: what the study says, else 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_RANKS)))]
     pub ranks: Option<u32>,
-    /// Threads a rank [default: the cores of this machine, shared between jobs and ranks; on Slurm, what the study says,
+    /// Threads per rank [default: the cores of this machine, shared between jobs and ranks; on Slurm, what the study says,
     /// else 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,

@@ -251,7 +251,7 @@ fn costs(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "memory (MB)", |case| {
             Some(significant(manifest(case).peak_memory? * 1e-6, 3))
         }),
-        row(cases, "million atom-steps a second", |case| {
+        row(cases, "million atom-steps per second", |case| {
             Some(significant(case.atom_steps_a_second()? / 1e6, 3))
         }),
     ]

@@ -172,7 +172,7 @@ fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
         ("commit", manifest.commit.clone()),
         ("host", manifest.host.clone()),
         ("ranks", manifest.ranks.map(|ranks| ranks.to_string())),
-        ("threads a rank", manifest.threads.map(|threads| threads.to_string())),
+        ("threads per rank", manifest.threads.map(|threads| threads.to_string())),
         ("started", manifest.started.clone()),
         ("ended", manifest.ended.clone()),
         ("wall time", manifest.wall_seconds.map(duration)),

@@ -31,7 +31,7 @@ fn summation(case: &Case) -> Option<String> {
              the report tells by how much"
         ),
         Summation::Nodal => {
-            "`summation: nodal` fails the patch test: uncracked it is 43 % too soft with 10 atoms an edge (2.20 against \
+            "`summation: nodal` fails the patch test: uncracked it is 43 % too soft with 10 atoms per edge (2.20 against \
              3.92 GPa at 1 %), and the report gives no K that takes the moduli of the lattice"
                 .to_owned()
         }

@@ -21,7 +21,7 @@ pub struct Manifest {
     /// `None` where the machine does not tell its name.
     pub host: Option<String>,
     pub ranks: u32,
-    /// Threads a rank, at the end.
+    /// Threads per rank, at the end.
     pub threads: u32,
     /// The job of Slurm that published it, such as `123_4`; `None` outside Slurm.
     #[serde(default, skip_serializing_if = "Option::is_none")]

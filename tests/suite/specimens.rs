@@ -67,7 +67,7 @@ pub fn all_materials() -> Vec<(&'static str, Material)> {
     ]
 }
 
-/// A slab of 6 x 9 blocks of 10 atoms an edge, a crack of 10 spacings to a corner of elements, and this resolution.
+/// A slab of 6 x 9 blocks of 10 atoms per edge, a crack of 10 spacings to a corner of elements, and this resolution.
 pub fn slab(element: u16, regions: Vec<Region>, spacing: f64) -> Mesh {
     let layout = Layout {
         block: 10,

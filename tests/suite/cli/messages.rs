@@ -359,7 +359,7 @@ fn check_warns_of_regions_that_change_nothing_or_all_and_of_an_unlikely_thicknes
         |half_width: &str| format!("{{element: 10, regions: [{{band: {{half-width: {half_width}, element: 1}}}}]}}");
     let wide = check("resolution: {element: 10}", &format!("resolution: {}", band("1 mm")));
     assert!(
-        wide.contains("no element of 10 atoms an edge is left beside the regions, which take the whole specimen"),
+        wide.contains("no element of 10 atoms per edge is left beside the regions, which take the whole specimen"),
         "{wide}"
     );
     let thin = check("resolution: {element: 10}", &format!("resolution: {}", band("1e-5 nm")));
