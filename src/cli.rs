@@ -2,6 +2,7 @@
 
 mod cancel;
 mod check;
+mod choices;
 mod clean;
 mod cluster;
 mod completions;
@@ -23,6 +24,7 @@ pub mod solve;
 mod specimen;
 mod status;
 mod survey;
+mod table;
 mod terminal;
 mod warnings;
 
@@ -53,6 +55,8 @@ enum Command {
     /// Write a case as input of another program
     #[command(subcommand)]
     Export(export::Command),
+    /// Put one table of many studies together
+    Table(table::Arguments),
     /// Print the JSON Schema of a study file, for editors
     Schema,
     /// Write a commented study to start from
@@ -124,6 +128,7 @@ impl Command {
             Command::Study(StudyCommand::Report(arguments)) => report::rebuild_report(&arguments),
             Command::Study(StudyCommand::Clean(arguments)) => clean::clean(&arguments),
             Command::Export(export::Command::Lammps(arguments)) => export::lammps(&arguments),
+            Command::Table(arguments) => table::table(&arguments),
             Command::Schema => schema::schema(),
             Command::New(arguments) => new::new(&arguments),
             Command::Completions(arguments) => completions::completions(&arguments),

@@ -1,5 +1,6 @@
 //! A study becomes a list of cases, each with a name, every choice made, and an identity.
 
+mod compared;
 mod comparison;
 mod difference;
 mod duplicates;
@@ -15,15 +16,18 @@ mod spelling;
 mod stages;
 mod starter;
 mod sweep;
+mod swept;
 mod write;
 
-pub use comparison::{COMPARED, Compared, Comparison, Expected, SCALING, reference};
+pub use compared::{COMPARED, Compared, SCALING};
+pub use comparison::{Comparison, Expected, reference};
 pub use difference::explain_difference;
 pub use identity::{CaseId, RunId};
 pub use side_by_side::SideBySide;
 pub use spelling::spelled;
 pub use stages::Stages;
 pub use starter::starter;
+pub use swept::{Swept, SweptValue};
 pub use write::write_case;
 
 use crate::study::{
@@ -67,6 +71,10 @@ pub struct PlannedCase {
     pub tables: Vec<Table>,
     /// Of its run.
     pub id: RunId,
+    /// The name that the sweep started from; its own where there is no sweep.
+    pub origin: String,
+    /// What the sweep has set in it, in the order of the sweep.
+    pub swept: Vec<Swept>,
 }
 
 /// Expand a study into its cases. All mistakes of the file, those of reading it too, come back at once.
@@ -98,12 +106,14 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         if let Some(resolved) = resolve(&draft.values, &draft.name, findings) {
             let id = RunId::of(&resolved.case);
             typed.insert(draft.name.clone(), draft.values);
-            origins.push((draft.origin, draft.place));
+            origins.push((draft.origin.clone(), draft.place));
             cases.push(PlannedCase {
                 name: draft.name,
                 case: resolved.case,
                 tables: resolved.tables,
                 id,
+                origin: draft.origin,
+                swept: draft.swept,
             });
         }
     }

@@ -5,6 +5,8 @@ mod beware;
 mod chart;
 mod figures;
 mod film;
+mod headline;
+mod joined;
 mod method;
 mod numbers;
 mod overview;
@@ -16,11 +18,14 @@ mod scaling;
 mod side_by_side;
 mod slab;
 mod study;
+mod sweep;
 mod table;
 mod tables;
 mod units;
+mod verdict;
 
 pub use film::Film;
+pub use joined::{Joined, Part};
 pub use study::{CaseResult, Failure, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
 
 use std::fs;

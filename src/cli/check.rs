@@ -6,6 +6,7 @@ use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
 use super::{CliError, format, room, specimen, warnings};
+use crate::plan::PlannedCase;
 use crate::setup::{Estimate, cautions};
 
 /// `cgaft study check FILE`
@@ -18,7 +19,8 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         .map(|case| case.name.as_str())
         .zip(&estimates)
         .collect();
-    let cases: Vec<_> = sized.iter().map(|(name, estimate)| to_json(name, estimate)).collect();
+    let sizes = plan.cases.iter().zip(&estimates);
+    let cases: Vec<_> = sizes.map(|(planned, estimate)| to_json(planned, estimate)).collect();
     let laid: Vec<_> = plan
         .cases
         .iter()
@@ -118,9 +120,9 @@ fn row(name: &str, estimate: &Estimate) -> Vec<String> {
     ]
 }
 
-fn to_json(name: &str, estimate: &Estimate) -> serde_json::Value {
-    json!({
-        "case": name,
+fn to_json(planned: &PlannedCase, estimate: &Estimate) -> serde_json::Value {
+    let mut json = json!({
+        "case": planned.name,
         "nodes": estimate.nodes,
         "elements": estimate.elements,
         "represented_atoms": estimate.represented_atoms,
@@ -132,5 +134,9 @@ fn to_json(name: &str, estimate: &Estimate) -> serde_json::Value {
         "memory_bytes": estimate.memory_bytes,
         "disk_bytes": estimate.disk_bytes,
         "estimated_s": estimate.seconds,
-    })
+    });
+    if !planned.swept.is_empty() {
+        json["swept"] = survey::swept(planned);
+    }
+    json
 }

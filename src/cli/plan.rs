@@ -13,8 +13,8 @@ use crate::store::State;
 pub struct Arguments {
     #[command(flatten)]
     pub of: OfResults,
-    /// Show this case only; may be given several times
-    #[arg(long, value_name = "CASE")]
+    /// Show these cases only: names or patterns such as 'length-10nm*', with commas between them; may be given several times
+    #[arg(long, value_name = "CASES", value_delimiter = ',')]
     pub only: Vec<String>,
     #[command(flatten)]
     pub crew: CrewChoice,

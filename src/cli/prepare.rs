@@ -3,6 +3,7 @@
 use std::thread;
 
 use clap::{Args, ValueEnum};
+use glob::Pattern;
 use jiff::Timestamp;
 
 use super::estimate::estimates;
@@ -21,8 +22,8 @@ pub struct Arguments {
     pub common: Common,
     #[command(flatten)]
     pub place: Place,
-    /// Run this case only; may be given several times
-    #[arg(long, value_name = "CASE")]
+    /// Run these cases only: names or patterns such as 'length-10nm*', with commas between them; may be given several times
+    #[arg(long, value_name = "CASES", value_delimiter = ',')]
     pub only: Vec<String>,
     #[command(flatten)]
     pub crew: CrewChoice,
@@ -89,10 +90,16 @@ impl Arguments {
 /// The cases that the user means, as positions in the study.
 pub fn chosen(survey: &Survey, only: &[String]) -> Result<Vec<usize>, CliError> {
     let names: Vec<&str> = survey.entries.iter().map(|entry| entry.planned.name.as_str()).collect();
+    let mut patterns = Vec::new();
     for wanted in only {
-        survey::named(&survey.plan, wanted)?;
+        let pattern = Pattern::new(wanted)
+            .map_err(|error| CliError::Input(format!("--only: `{wanted}` is no pattern of names: {error}")))?;
+        if !names.iter().any(|name| pattern.matches(name)) {
+            survey::named(&survey.plan, wanted)?;
+        }
+        patterns.push(pattern);
     }
-    let means = |name: &str| only.is_empty() || only.iter().any(|wanted| wanted == name);
+    let means = |name: &str| only.is_empty() || patterns.iter().any(|pattern| pattern.matches(name));
     Ok((0..names.len()).filter(|&position| means(names[position])).collect())
 }
 

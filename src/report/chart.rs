@@ -13,6 +13,7 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
+use super::sweep::Key;
 use super::{ReportError, numbers, palette};
 use legend::Legend;
 use ranks::OverRanks;
@@ -64,6 +65,7 @@ pub enum Content {
 }
 
 /// One curve; a point without a finite y is a gap.
+#[derive(Default)]
 pub struct Curve {
     pub label: String,
     /// Chooses colour, dashes and marker; the same case has the same one in all charts.
@@ -71,6 +73,10 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// Uncertainty of y to either side, a point; empty where none is shown.
     pub spread: Vec<f64>,
+    /// Each point is a measurement of its own, with a marker and a bar.
+    pub dots: bool,
+    /// What its colour and dashes stand for, where they stand for something.
+    pub key: Option<Key>,
 }
 
 /// A chart as a file of its own and as part of a page.
@@ -246,6 +252,19 @@ impl Curve {
     /// A pale band as wide as the uncertainty.
     fn draw_spread<DB: DrawingBackend>(&self, chart: &mut Axes<DB>) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
         let bars: Vec<_> = self.points.iter().zip(&self.spread).collect();
+        if self.dots {
+            let bars = bars
+                .into_iter()
+                .filter(|(point, spread)| (point.1 + **spread).is_finite());
+            let bar = |(point, spread): (&(f64, f64), &f64)| {
+                PathElement::new(
+                    [(point.0, point.1 - spread), (point.0, point.1 + spread)],
+                    self.stroke(),
+                )
+            };
+            chart.draw_series(bars.map(bar))?;
+            return Ok(());
+        }
         let pieces = bars.split(|(point, spread)| !(point.1 + **spread).is_finite());
         for piece in pieces.filter(|piece| piece.len() > 1) {
             let side = |sign: f64| {
@@ -280,7 +299,9 @@ impl Curve {
         let mut next = start + (self.style % 4 + 1) as i32 * MARKER_GAP / 5;
         let mut marks = Vec::new();
         for place in seen.map(|point| chart.backend_coord(point)) {
-            if place.0 >= next {
+            if self.dots {
+                marks.push(place);
+            } else if place.0 >= next {
                 marks.push(place);
                 next += MARKER_GAP * ((place.0 - next) / MARKER_GAP + 1);
             }

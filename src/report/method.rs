@@ -12,10 +12,11 @@ use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
 /// A term and what it means here.
 pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
     let mut notes = Vec::new();
-    if cases.iter().any(Analysed::has_crack) {
+    let has_crack = cases.iter().any(Analysed::has_crack);
+    if has_crack {
         notes.extend(of_cracks(cases));
     }
-    notes.extend(of_all());
+    notes.extend(of_all(has_crack));
     notes.extend(resolution::notes(cases));
     let treatment = |case: &Analysed| {
         let about = case
@@ -91,16 +92,21 @@ fn of_the_course() -> [(&'static str, String); 3] {
     ]
 }
 
-fn of_all() -> [(&'static str, String); 2] {
+fn of_all(has_crack: bool) -> [(&'static str, String); 2] {
     [
         (
             "Comparison",
-            format!(
-                "Each case is measured against the one with the most nodes on the same specimen. Stresses are compared \
-                 at equal strain, from {} % of the earliest initiation strain among these cases up to it, as the \
-                 largest difference; speeds as the mean difference while both cracks run, without sign.",
-                significant(100.0 * FROM_SHARE, 3)
-            ),
+            match has_crack {
+                true => format!(
+                    "Each case is measured against the one with the most nodes on the same specimen. Stresses are compared at \
+                     equal strain, from {} % of the earliest initiation strain among these cases up to it, as the largest \
+                     difference; speeds as the mean difference while both cracks run, without sign.",
+                    significant(100.0 * FROM_SHARE, 3)
+                ),
+                false => "Each case is measured against the one with the most nodes on the same specimen. Stresses are compared \
+                          at equal strain, as the largest difference."
+                    .to_owned(),
+            },
         ),
         (
             "Energy error",

@@ -6,7 +6,7 @@ use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::table::Table;
 use super::tables::{comparison, specimen};
-use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling};
+use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling, verdict};
 use crate::plan::Comparison;
 use crate::units::amounts::duration;
 use minijinja::syntax::SyntaxConfig;
@@ -17,6 +17,9 @@ const SHOWN_ROWS: usize = 60;
 
 /// More cases than this stand one below the other in the comparison.
 const MOST_ABREAST: usize = 8;
+
+/// More pictures of one kind than this are a grid of small ones.
+const MOST_LARGE: usize = 3;
 
 /// What the page is made from.
 pub struct Page<'a> {
@@ -58,7 +61,7 @@ impl Page<'_> {
             verdict => self.verdict(),
             names => list(self.cases, |case| case.name().into()),
             many => self.cases.len() > MOST_ABREAST,
-            groups => list(&overview::groups(self.cases), group),
+            groups => list(&self.groups(), group),
             specimens => list(&specimen::notes(self.cases), pair),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             scaling => self.scaling.map(|found| self.scaling(found)),
@@ -78,10 +81,18 @@ impl Page<'_> {
 }
 
 impl Page<'_> {
+    /// Where there are many cases each group is a table of its own.
+    fn groups(&self) -> Vec<Group> {
+        match self.cases.len() > MOST_ABREAST {
+            true => overview::tables(self.cases),
+            false => overview::groups(self.cases),
+        }
+    }
+
     fn verdict(&self) -> String {
         match self.scaling.and_then(scaling::verdict) {
-            Some(gain) => format!("{} {gain}", overview::done(self.cases)),
-            None => overview::verdict(self.cases),
+            Some(gain) => format!("{} {gain}", verdict::done(self.cases)),
+            None => verdict::verdict(self.cases),
         }
     }
 
@@ -114,7 +125,7 @@ fn chart((chart, drawing): (&Chart, &Drawing)) -> Value {
 }
 
 fn gallery(gallery: &Gallery) -> Value {
-    context! { title => &gallery.title, lead => &gallery.lead, pictures => list(&gallery.pictures, picture) }
+    context! { title => &gallery.title, lead => &gallery.lead, small => gallery.pictures.len() > MOST_LARGE, pictures => list(&gallery.pictures, picture) }
 }
 
 fn picture(picture: &Picture) -> Value {

@@ -61,7 +61,11 @@ pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> R
         galleries.push(self::gallery(title, &branching(cases), Shade::Speed, folder)?);
     }
     galleries.push(gallery(
-        "The broken slabs".to_owned(),
+        match cases.iter().any(Analysed::has_crack) {
+            true => "The broken slabs",
+            false => "The slabs at the end",
+        }
+        .to_owned(),
         &endings(cases),
         Shade::Stress,
         folder,
@@ -147,10 +151,16 @@ fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Res
         .collect::<Result<_, _>>()?;
     let end = numbers::tick(limit);
     let lead = match shade {
-        Shade::Stress => format!(
-            "Displacements to scale. Colour is the virial stress σyy across the crack plane, on the same scale in all \
-             pictures (beyond ±{end} GPa the end colours); white is empty space, grey are the grips."
-        ),
+        Shade::Stress => {
+            let direction = match wanted.iter().any(|picture| picture.case.has_crack()) {
+                true => "across the crack plane",
+                false => "in the direction of the pull",
+            };
+            format!(
+                "Displacements to scale. Colour is the virial stress σyy {direction}, on the same scale in all pictures (beyond \
+                 ±{end} GPa the end colours); white is empty space, grey are the grips."
+            )
+        }
         Shade::Speed => format!(
             "The pictures taken nearest to the moments at which the cracks first branch. Colour is the speed of the \
              particles, on the same scale in all pictures (beyond {end} m/s the end colour), so that waves show."

@@ -3,7 +3,7 @@
 use super::film::Film;
 use crate::analysis::series::{Series, Setting};
 use crate::domain::{Burden, MessageCost};
-use crate::plan::{Comparison, SideBySide, Stages};
+use crate::plan::{Comparison, SideBySide, Stages, Swept};
 use crate::study::Growth;
 
 /// A study and the results of its cases, in the order in which they are to be shown.
@@ -59,6 +59,9 @@ pub struct CaseResult {
     /// The resolved case as pairs of dotted key and value, as a person reads them; the report shows those that differ
     /// between the cases.
     pub choices: Vec<(String, String)>,
+    /// The name that a sweep started from, and what it has set.
+    pub origin: String,
+    pub swept: Vec<Swept>,
     /// `None` where that cannot be told on this machine.
     pub specimen: Option<Specimen>,
     /// `None` where the case did not come as far as its set-up.

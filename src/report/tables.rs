@@ -15,6 +15,7 @@ mod summary;
 pub mod wave_arrival;
 
 use super::side_by_side::{self, Panel};
+use super::sweep;
 use super::table::Table;
 use super::{Analysed, ReportError, scaling};
 use crate::plan::{Comparison, SCALING};
@@ -40,7 +41,7 @@ pub fn all(
         ("path", path::columns(cases)),
         ("cost", cost::columns(cases)),
     ];
-    let make = |(name, columns)| Table::new(name, columns);
+    let make = |(name, columns)| Table::new(name, sweep::with_keys(columns, cases));
     let mut tables = own.into_iter().map(make).collect::<Result<Vec<_>, _>>()?;
     let precision = speed_against_error::rows(cases);
     if !precision.is_empty() {

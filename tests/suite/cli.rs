@@ -8,6 +8,8 @@ mod repeat;
 mod single;
 mod slurm;
 mod specimen;
+mod sweep;
+mod table;
 
 use std::fs;
 use std::path::{Path, PathBuf};

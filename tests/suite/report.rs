@@ -10,6 +10,7 @@ mod precision;
 mod scaling;
 mod side_by_side;
 mod specimen;
+mod sweep;
 mod units;
 mod verdict;
 
@@ -58,6 +59,8 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
         id: format!("{name}-0123456789abcdef"),
         resolved: "material:\n  mass: 802 u\n".to_owned(),
         choices: choices.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec(),
+        origin: name.to_owned(),
+        swept: Vec::new(),
         specimen: None,
         film: Some(film(&setting, if name == "coarse" { 10 } else { 1 })),
         setting: Some(setting),

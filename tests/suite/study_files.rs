@@ -201,6 +201,28 @@ fn a_reference_is_for_all_that_a_sweep_makes_of_its_case() {
 }
 
 #[test]
+fn a_reference_by_swept_values_is_for_all_cases_that_have_them() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(
+        folder.path().join("starts.csv"),
+        "crack_length_nm,initiation_strain\n46,0.012\n50.0,0.011\n",
+    )
+    .unwrap();
+    let path = folder.path().join("study.yaml");
+    let sweep =
+        "\nsweep:\n  crack.length: [46 nm, 0.05 um]\n  probes.every: [1 ps, 2 ps]\ncompare: {starts: starts.csv}\n";
+    fs::write(&path, starter("fresh") + sweep).unwrap();
+    let plan = check(&path).unwrap();
+    let [comparison] = plan.comparisons.as_slice() else {
+        panic!("{:?}", plan.comparisons)
+    };
+    let of = |value: f64| comparison.values.iter().filter(move |expected| expected.value == value);
+    assert_eq!(comparison.table, "summary");
+    assert_eq!([of(0.012).count(), of(0.011).count()], [plan.cases.len() / 2; 2]);
+    assert!(of(0.011).all(|expected| expected.case.contains("length-50nm")));
+}
+
+#[test]
 fn the_starter_study_is_right_as_it_is() {
     let plan = check_text(&starter("crack-speed")).unwrap();
     assert_eq!(plan.study, "crack-speed");
@@ -215,11 +237,13 @@ fn a_written_case_reads_back_to_the_same_bits() {
         let path = folder.path().join("case.yaml");
         fs::write(&path, write_case(&planned)).unwrap();
         // It is a study of its own, so that one case can be repeated from its folder alone; there it has nothing beside it.
-        let id = RunId::of(&planned.case);
-        assert_eq!(
-            read_case(path.to_str().unwrap()).unwrap().cases,
-            [PlannedCase { id, ..planned }]
-        );
+        let alone = PlannedCase {
+            id: RunId::of(&planned.case),
+            origin: planned.name.clone(),
+            swept: Vec::new(),
+            ..planned
+        };
+        assert_eq!(read_case(path.to_str().unwrap()).unwrap().cases, [alone]);
     }
 }
 

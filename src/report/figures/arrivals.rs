@@ -61,7 +61,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
         label,
         style,
         points: vec![(time, 0.0), (time, top)],
-        spread: Vec::new(),
+        ..Curve::default()
     };
     let mut curves = vec![
         Curve {
@@ -69,6 +69,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
             style: 0,
             points: speed,
             spread,
+            ..Curve::default()
         },
         mark(START, "start".to_owned(), 0.0),
     ];

@@ -343,6 +343,19 @@ impl Check<'_> {
         })
     }
 
+    /// What tells of a crack alone must not be asked of a case without one.
+    pub fn observes_no_crack(&self, given: &Given<Vec<Given<Observe>>>) {
+        for item in given.right().into_iter().flatten() {
+            let (what, place) = match item {
+                Given::Right(Observe::Crack, place) => ("crack", place),
+                Given::Right(Observe::WaveArrival, place) => ("wave-arrival", place),
+                _ => continue,
+            };
+            let message = format!("`{what}` tells of a crack, and the case has none");
+            self.add(Finding::at(*place, message).help("leave it out, or give a `crack`"));
+        }
+    }
+
     pub fn snapshots(&self, given: &Given<Vec<Given<Observe>>>) -> Option<Snapshots> {
         let items = match given {
             Given::Absent => return Some(Snapshots { every: None }),

@@ -71,6 +71,6 @@ fn many_cases_stand_one_below_the_other_and_their_legend_takes_nothing_from_the_
         height.unwrap().parse::<u32>().unwrap()
     });
     assert_eq!(few, 400);
-    // Two of these names fit into a row of 24 units.
-    assert_eq!(many, 400 + 14 * 24);
+    // Two of these names fit into a row of 24 units, and twelve rows are as high as the plot: 23 names, and how many more.
+    assert_eq!(many, 400 + 11 * 24);
 }
