@@ -72,6 +72,15 @@ impl Analysed<'_> {
         &self.result.name
     }
 
+    /// Its name as part of the name of a file.
+    fn file_part(&self) -> String {
+        let plain = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
+        self.name()
+            .chars()
+            .map(|letter| if plain(letter) { letter } else { '-' })
+            .collect()
+    }
+
     /// Whether there is a crack to be followed; before the set-up of a case its choices tell.
     fn has_crack(&self) -> bool {
         match &self.result.setting {

@@ -5,7 +5,6 @@ mod sweep;
 
 use super::Analysed;
 use super::chart::{Chart, Content, Curve};
-use super::numbers;
 use super::sweep::{Look, looks};
 use super::tables::speed_against_error;
 use super::units::{GIGAPASCAL, PERCENT};
@@ -26,7 +25,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
         traction(cases),
         imbalance(cases),
     ]);
-    charts.extend(cases.iter().enumerate().map(|(index, case)| energies(index, case)));
+    charts.extend(cases.iter().map(energies));
     charts.extend(arrivals::charts(cases));
     charts.retain_mut(|chart| match &mut chart.content {
         Content::Curves(curves) => {
@@ -54,8 +53,8 @@ pub fn is_of_a_report(name: &str) -> bool {
         || id.starts_with(sweep::START)
         || id.starts_with("speed-against-error-")
         || id.starts_with("scaling-")
-        || id.strip_prefix("arrivals-").is_some_and(numbers::is_index)
-        || id.strip_prefix("energy-").is_some_and(numbers::is_index)
+        || id.starts_with("arrivals-")
+        || id.starts_with("energy-")
 }
 
 /// One curve per case: by colour and dashes of what a sweep varies.
@@ -238,7 +237,7 @@ fn balance(row: &Probe) -> f64 {
     row.kinetic + row.potential - row.work - row.cutoff_release
 }
 
-fn energies(index: usize, case: &Analysed) -> Chart {
+fn energies(case: &Analysed) -> Chart {
     let probes = &case.result.series.probes;
     let start = probes.first().copied().unwrap_or_default();
     let largest = probes
@@ -256,7 +255,7 @@ fn energies(index: usize, case: &Analysed) -> Chart {
         ..Curve::default()
     };
     Chart {
-        id: format!("energy-{index}"),
+        id: format!("energy-{}", case.file_part()),
         detail: true,
         table: "stress_strain",
         title: format!("Energy ledger of {}", case.name()),

@@ -27,11 +27,6 @@ pub fn count(value: u64) -> String {
     grouped(&value.to_string())
 }
 
-/// Whether a text is the number of a case.
-pub fn is_index(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit())
-}
-
 /// A share in percent, with its sign where it is large enough to have one.
 pub fn signed_percent(share: f64) -> String {
     let percent = share * 100.0;

@@ -1,7 +1,7 @@
 //! The first lines of a report: what came out, what to beware of, whether it worked, and for what effort.
 
 use super::headline::{self, Headline};
-use super::numbers::{capital, significant};
+use super::numbers::{capital, round_significant, significant};
 use super::overview::{ROUNDING, between_probes};
 use super::sweep::{self, Series};
 use super::tables::specimen::are_one_computation;
@@ -115,7 +115,15 @@ fn range(headline: &Headline, key: &Swept, series: &[Series]) -> Option<String> 
     let (from, to, way) = match (several && goes(-1.0), several && goes(1.0)) {
         (true, _) => (most, least, "falls with"),
         (_, true) => (least, most, "grows with"),
-        _ => (least, most, "does not go one way with"),
+        _ => {
+            return Some(format!(
+                "{name} is from {} {unit} at {} to {} {unit} at {}{error}, and does not go one way with {path}.",
+                least.number(),
+                least.at,
+                most.number(),
+                most.at
+            ));
+        }
     };
     Some(format!(
         "{name} {way} {path}: from {} {unit} at {} to {} {unit} at {}{error}.",
@@ -144,6 +152,7 @@ fn told(headline: &Headline, key: &Swept, series: &Series) -> Vec<Told> {
 fn with_error(value: f64, error: Option<f64>) -> String {
     match error.filter(|error| error.is_finite() && *error > 0.0) {
         Some(error) => {
+            let error = round_significant(error, 1);
             let decimals = (-error.log10().floor() as i32).clamp(0, 6) as usize;
             format!("{value:.decimals$} ± {error:.decimals$}")
         }
