@@ -1,7 +1,8 @@
 //! Writing that survives a crash: a file is either old or new, never half.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, Permissions, TryLockError};
 use std::io;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
 use serde::Serialize;
@@ -9,6 +10,10 @@ use serde::de::DeserializeOwned;
 
 use super::StoreError;
 use crate::durable;
+
+/// The bits of a mode that let anybody write, and that let the owner.
+const WRITE: u32 = 0o222;
+const OWN_WRITE: u32 = 0o200;
 
 /// End of the name of a file that is still being written.
 pub const ASIDE: &str = ".new";
@@ -66,6 +71,20 @@ pub fn is_locked(path: &Path) -> bool {
 /// Flushes a file or the entries of a folder to the disk.
 pub fn sync(path: &Path) -> Result<(), StoreError> {
     durable::sync(path).map_err(StoreError::write(path))
+}
+
+/// Takes from everybody the right to write the files of a folder, or gives it back to their owner.
+pub fn set_read_only(folder: &Path, read_only: bool) -> Result<(), StoreError> {
+    for entry in fs::read_dir(folder).map_err(StoreError::read(folder))? {
+        let path = entry.map_err(StoreError::read(folder))?.path();
+        let metadata = fs::symlink_metadata(&path).map_err(StoreError::read(&path))?;
+        if metadata.is_file() {
+            let mode = metadata.permissions().mode();
+            let mode = if read_only { mode & !WRITE } else { mode | OWN_WRITE };
+            fs::set_permissions(&path, Permissions::from_mode(mode)).map_err(StoreError::write(&path))?;
+        }
+    }
+    Ok(())
 }
 
 /// Removes what a killed process was just writing in place of `name`.

@@ -6,14 +6,14 @@ use std::path::Path;
 use cgaft::store::{State, Store};
 
 use super::{PATIENCE, Program, STUDY, Workspace, assert_same_results, files, send, wait_for};
-use crate::suite::specimens::Noise;
+use crate::suite::specimens::{Noise, put_in_the_place_of};
 
 /// Another bit in the middle of a file, whose size stays.
 fn flip_a_bit(file: &Path) {
     let mut bytes = fs::read(file).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
-    fs::write(file, bytes).unwrap();
+    put_in_the_place_of(file, bytes);
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn a_manifest_that_was_changed_is_told_at_every_look() {
     let length = text.find(" nm\"").expect("a length of the case");
     let mut bytes = text.into_bytes();
     bytes[length + 1] = b'f';
-    fs::write(&manifest, bytes).unwrap();
+    put_in_the_place_of(&manifest, bytes);
     assert_eq!(place.states()[0], "corrupt");
     let again = place.cgaft("run", &["--only", "coarse"]).succeeded();
     assert!(
@@ -119,7 +119,7 @@ fn any_flipped_bit_of_any_file_of_a_run_is_found() {
         let whole = fs::read(&file).unwrap();
         for _ in 0..FLIPS {
             let (bytes, place) = with_a_flip(&whole, &mut noise);
-            fs::write(&file, bytes).unwrap();
+            put_in_the_place_of(&file, bytes);
             let state = verified();
             assert!(
                 matches!(state, State::Corrupt { .. }),
@@ -127,7 +127,7 @@ fn any_flipped_bit_of_any_file_of_a_run_is_found() {
                 file.display()
             );
         }
-        fs::write(&file, whole).unwrap();
+        put_in_the_place_of(&file, whole);
         assert!(matches!(verified(), State::Done(_)), "{}", file.display());
     }
 }
