@@ -142,7 +142,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
     charts.extend(figures::charts(&cases, &study.comparisons));
     let mut drawn = Vec::new();
     for chart in &charts {
-        let svg = chart.draw()?;
+        let svg = chart.draw(study.figure_width)?;
         save(
             &folder.join("figures").join(format!("{}.svg", chart.id)),
             svg.standalone.as_bytes(),

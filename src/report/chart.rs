@@ -2,6 +2,7 @@
 
 mod labels;
 mod legend;
+mod ranges;
 pub mod ranks;
 pub mod scatter;
 
@@ -16,6 +17,7 @@ use plotters::style::{FontStyle, register_font};
 use super::sweep::Key;
 use super::{ReportError, numbers, palette};
 use legend::Legend;
+use ranges::ranges;
 use ranks::OverRanks;
 use scatter::Scatter;
 
@@ -24,19 +26,15 @@ const WIDTH: u32 = 600;
 const HEIGHT: u32 = 400;
 const FINE: i32 = 4;
 
+/// nm in a millimetre.
+const NM_IN_A_MM: f64 = 1e6;
+
 const TEXT: i32 = 16;
 const INK: RGBColor = RGBColor(34, 34, 34);
 const FAINT: RGBColor = RGBColor(222, 222, 222);
 
 /// Points of a curve that a page can show; more are thinned out so that every peak stays.
 const MOST_POINTS: usize = 800;
-
-/// Share of the x axis that may be empty on the left.
-const LATE: f64 = 0.4;
-
-/// Room around measured points, of what they span; and the share of the largest below which the smallest is shown from zero.
-const CLOSE_ROOM: f64 = 0.08;
-const NEAR_ZERO: f64 = 0.35;
 
 /// How much of what is behind the band of an uncertainty it hides.
 const SPREAD_OPACITY: f64 = 0.2;
@@ -90,7 +88,8 @@ pub struct Drawing {
 }
 
 impl Chart {
-    pub fn draw(&self) -> Result<Drawing, ReportError> {
+    /// `width` is that of the file, nm.
+    pub fn draw(&self, width: Option<f64>) -> Result<Drawing, ReportError> {
         let failed = |error: &dyn Display| ReportError::Figure {
             figure: self.id.clone(),
             reason: error.to_string(),
@@ -115,11 +114,11 @@ impl Chart {
         }
         let start = svg.find('\n').ok_or_else(|| failed(&"the drawing is empty"))?;
         let end = svg.rfind("</svg>").ok_or_else(|| failed(&"the drawing has no end"))?;
-        Ok(self.wrap(&svg[start + 1..end], size))
+        Ok(self.wrap(&svg[start + 1..end], size, width))
     }
 
     /// Gives the drawing a name and a description for those who cannot see it.
-    fn wrap(&self, body: &str, (wide, high): (i32, i32)) -> Drawing {
+    fn wrap(&self, body: &str, (wide, high): (i32, i32), width: Option<f64>) -> Drawing {
         let escape = |text: &str| {
             text.replace('&', "&amp;")
                 .replace('<', "&lt;")
@@ -127,16 +126,25 @@ impl Chart {
                 .replace('"', "&quot;")
         };
         let (id, title, about) = (&self.id, escape(&self.title), escape(&self.describe()));
-        let height = high / FINE;
-        let head = format!(
-            "width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" role=\"img\" \
+        let in_pixels = format!("width=\"{WIDTH}\" height=\"{}\"", high / FINE);
+        let in_millimetres = |width: f64| {
+            let height = width * f64::from(high) / f64::from(wide);
+            format!(
+                "width=\"{:.2}mm\" height=\"{:.2}mm\"",
+                width / NM_IN_A_MM,
+                height / NM_IN_A_MM
+            )
+        };
+        let on_paper = width.map_or_else(|| in_pixels.clone(), in_millimetres);
+        let rest = format!(
+            "viewBox=\"0 0 {wide} {high}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-about\">\n\
              <title id=\"{id}-title\">{title}</title>\n<desc id=\"{id}-about\">{about}</desc>\n\
              <g aria-hidden=\"true\">\n{body}</g>\n</svg>\n"
         );
         Drawing {
-            standalone: format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {head}"),
-            inline: format!("<svg {head}"),
+            standalone: format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {on_paper} {rest}"),
+            inline: format!("<svg {in_pixels} {rest}"),
         }
     }
 
@@ -216,63 +224,6 @@ fn framed<'a, DB: DrawingBackend>(root: &'a DrawingArea<DB, Shift>, above: i32) 
         .x_label_area_size(48 * FINE)
         .y_label_area_size(74 * FINE);
     chart
-}
-
-/// What the axes span: the data, zero, and a little more above and below.
-fn ranges(curves: &[Curve]) -> (std::ops::Range<f64>, std::ops::Range<f64>) {
-    let points = || {
-        curves
-            .iter()
-            .flat_map(|curve| &curve.points)
-            .filter(|point| point.1.is_finite())
-    };
-    let span = |values: &mut dyn Iterator<Item = f64>| {
-        values.fold((0.0_f64, 0.0_f64), |(low, high), value| {
-            (low.min(value), high.max(value))
-        })
-    };
-    let (_, right) = span(&mut points().map(|point| point.0));
-    // Curves that begin late are shown from where they begin.
-    let left = points().map(|point| point.0).fold(right, f64::min);
-    let left = if left > LATE * right {
-        left - 0.1 * (right - left)
-    } else {
-        left.min(0.0)
-    };
-    if curves.iter().all(|curve| curve.dots) {
-        return close_ranges(curves);
-    }
-    let (low, high) = span(&mut points().map(|point| point.1));
-    let right = if right > left { right } else { left + 1.0 };
-    let room = if high > low { 0.04 * (high - low) } else { 1.0 };
-    (left..right, if low < 0.0 { low - room } else { 0.0 }..high + room)
-}
-
-/// What the axes span where every point is a measurement: the points with their bars, and some room around them.
-fn close_ranges(curves: &[Curve]) -> (std::ops::Range<f64>, std::ops::Range<f64>) {
-    let ends = |curve: &Curve| {
-        let error = |index: usize| curve.spread.get(index).copied().filter(|error| error.is_finite());
-        let points = curve.points.iter().enumerate().filter(|(_, point)| point.1.is_finite());
-        let end = |(index, point): (usize, &(f64, f64))| {
-            let error = error(index).unwrap_or(0.0);
-            [(point.0, point.1 - error), (point.0, point.1 + error)]
-        };
-        points.flat_map(end).collect::<Vec<_>>()
-    };
-    let ends: Vec<(f64, f64)> = curves.iter().flat_map(ends).collect();
-    let span = |of: fn(&(f64, f64)) -> f64| {
-        let low = ends.iter().map(of).fold(f64::INFINITY, f64::min);
-        let high = ends.iter().map(of).fold(f64::NEG_INFINITY, f64::max);
-        let room = CLOSE_ROOM * if high > low { high - low } else { high.abs().max(1.0) };
-        // From zero where that is near anyway.
-        let low = if low > 0.0 && low < NEAR_ZERO * high {
-            0.0
-        } else {
-            low - room
-        };
-        low..high + room
-    };
-    (span(|end| end.0), span(|end| end.1))
 }
 
 type Axes<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;

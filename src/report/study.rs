@@ -15,6 +15,8 @@ pub struct Study {
     pub question: Option<String>,
     /// The study file as typed.
     pub text: String,
+    /// Width of the figures as files of their own, nm; 600 pixels where there is none.
+    pub figure_width: Option<f64>,
     /// The case to be shown through time, and at which strains.
     pub stages: Option<Stages>,
     /// Where the cases are to show what ranks gain.

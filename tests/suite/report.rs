@@ -122,6 +122,7 @@ fn three_meshes() -> Study {
         title: Some("Three meshes, one crack".to_owned()),
         question: Some("How much does a crack notice that the far field is coarse?".to_owned()),
         text: "study: quickstart\nquestion: How much does a crack notice that the far field is coarse?\n".to_owned(),
+        figure_width: None,
         stages: None,
         scaling: None,
         comparisons: Vec::new(),

@@ -4,6 +4,7 @@
 //! `# 5:14 message` for a place, `# - message` for the file as a whole, and `#   help: …` where the help matters.
 
 mod mutations;
+mod schema;
 mod shipped;
 
 use cgaft::{
@@ -132,55 +133,6 @@ fn every_right_study_gives_cases() {
         let plan = check(&path).unwrap_or_else(|error| panic!("{}\n{error}", path.display()));
         assert!(!plan.cases.is_empty());
     }
-}
-
-#[test]
-fn every_study_fits_the_schema() {
-    let validator = jsonschema::draft7::new(&study::schema()).unwrap();
-    let texts = right_studies()
-        .into_iter()
-        .map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap()));
-    for (name, text) in texts.chain([("starter".to_owned(), starter("fresh"))]) {
-        let options = serde_saphyr::options! { strict_booleans: true };
-        let value: serde_json::Value = serde_saphyr::from_str_with_options(&text, options).unwrap();
-        let errors: Vec<String> = validator
-            .iter_errors(&value)
-            .map(|error| format!("{}: {error}", error.instance_path()))
-            .collect();
-        assert!(errors.is_empty(), "{name}: {errors:#?}");
-    }
-}
-
-/// Most slips can be seen by an editor that knows the schema; what needs arithmetic cannot.
-#[test]
-fn the_schema_refuses_wrong_keys_variants_and_bare_numbers() {
-    let validator = jsonschema::draft7::new(&study::schema()).unwrap();
-    for name in [
-        "unknown_key",
-        "unknown_variant",
-        "unknown_word",
-        "unit_missing",
-        "not_a_number",
-        "whole_number_expected",
-    ] {
-        let path = format!("{}/tests/study_files/bad/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
-        let value: serde_json::Value = serde_saphyr::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-        assert!(!validator.is_valid(&value), "{name}");
-    }
-}
-
-/// `CGAFT_WRITE_SCHEMA=1 cargo test` writes it anew.
-#[test]
-fn the_schema_file_is_what_the_types_say() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/study.schema.json");
-    let text = serde_json::to_string_pretty(&study::schema()).unwrap() + "\n";
-    if std::env::var_os("CGAFT_WRITE_SCHEMA").is_some() {
-        fs::write(&path, &text).unwrap();
-    }
-    assert!(
-        fs::read_to_string(&path).unwrap() == text,
-        "stale: run the tests with CGAFT_WRITE_SCHEMA=1"
-    );
 }
 
 #[test]

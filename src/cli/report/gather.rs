@@ -27,6 +27,7 @@ pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
         title: survey.plan.title.clone(),
         question: survey.plan.question.clone(),
         text: survey.plan.source().to_owned(),
+        figure_width: survey.plan.figure_width,
         stages: survey.plan.stages.clone(),
         scaling,
         comparisons,
