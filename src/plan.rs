@@ -5,6 +5,7 @@ mod comparison;
 mod difference;
 mod duplicates;
 mod expansion;
+mod figures;
 mod identity;
 mod label;
 mod name;
@@ -44,6 +45,8 @@ pub struct Plan {
     pub question: Option<String>,
     /// Headline of the report.
     pub title: Option<String>,
+    /// Width of the figures as files of their own, nm.
+    pub figure_width: Option<f64>,
     /// The case to be shown in pictures, and at which strains.
     pub stages: Option<Stages>,
     /// Where the cases are to show what ranks gain: what becomes of the specimen meanwhile.
@@ -91,6 +94,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let number = drafts.len();
     let comparisons = comparison::read(study, &drafts, findings);
     let stages = stages::resolve(study, &drafts, findings);
+    let figure_width = figures::width(study, findings);
     let beside = side_by_side::others(study, findings);
     let side_by_side = side_by_side::resolve(study, &drafts, findings);
     let cluster = study::cluster::resolve(&content.cluster, findings);
@@ -131,6 +135,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         study: name,
         question: text(&content.question),
         title: content.report.right().and_then(|report| text(&report.title)),
+        figure_width,
         stages,
         scaling,
         comparisons,

@@ -8,7 +8,7 @@ use std::sync::{Arc, LazyLock};
 use std::thread;
 use std::time::Duration;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
@@ -82,6 +82,11 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     let version = env!("CARGO_PKG_VERSION");
     format!("{version}\nfeatures: {}", mpi.unwrap_or_else(|| "none".to_owned()))
 });
+
+/// What may be typed, for man pages and completions.
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
 
 /// The whole of `cgaft-solve`.
 pub fn main() -> ExitCode {

@@ -51,7 +51,6 @@ impl Page<'_> {
         });
         environment.add_filter("cell", markdown_cell);
         environment.add_filter("block", indented);
-        environment.add_filter("breakable", breakable);
         environment.add_template(name, template)?;
         let mut versions = self.cases.iter().map(|case| case.result.manifest.version.as_str());
         let page = context! {
@@ -228,22 +227,6 @@ fn markdown_cell(text: &str) -> String {
     safe
 }
 
-/// A name that may be broken behind its dots, dashes and underscores, and nowhere inside a word.
-fn breakable(text: &str) -> Value {
-    let mut safe = String::new();
-    for sign in text.chars() {
-        match sign {
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '&' => safe.push_str("&amp;"),
-            '"' => safe.push_str("&quot;"),
-            '.' | '-' | '_' => safe.extend([sign, '\u{200b}']),
-            sign => safe.push(sign),
-        }
-    }
-    Value::from_safe_string(safe)
-}
-
 /// Text as a block of code that nothing in it can end.
 fn indented(text: &str) -> String {
     text.lines().map(|line| format!("    {line}\n")).collect()
@@ -279,11 +262,6 @@ mod tests {
         vectors
             .iter()
             .for_each(|(plain, coded)| assert_eq!(base64(plain.as_bytes()), *coded));
-    }
-
-    #[test]
-    fn names_break_between_their_words_and_cannot_be_markup() {
-        assert_eq!(breakable("a.b-c<i>").to_string(), "a.\u{200b}b-\u{200b}c&lt;i&gt;");
     }
 
     #[test]

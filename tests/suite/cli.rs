@@ -10,6 +10,7 @@ mod slurm;
 mod specimen;
 mod sweep;
 mod table;
+mod tools;
 
 use std::fs;
 use std::path::{Path, PathBuf};

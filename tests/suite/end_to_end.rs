@@ -8,6 +8,7 @@ mod failure;
 mod full;
 mod interrupt;
 mod kill;
+mod pages;
 mod quickstart;
 mod ranks;
 mod repeat;

@@ -267,17 +267,6 @@ fn a_reader_that_leaves_early_is_no_panic() {
 }
 
 #[test]
-fn new_writes_a_study_that_is_right_and_never_overwrites() {
-    let place = Workspace::new();
-    place.cgaft(&["new", "my-crack"]).succeeded();
-    place.cgaft(&["study", "check", "my-crack.yaml"]).succeeded();
-    let again = place.cgaft(&["new", "my-crack"]);
-    assert_eq!(again.code, Some(2));
-    assert!(again.stderr.contains("exists already"), "{}", again.stderr);
-    assert_eq!(place.cgaft(&["new", "../crack"]).code, Some(2));
-}
-
-#[test]
 fn the_small_commands_answer() {
     let place = Workspace::new();
     let schema = place.cgaft(&["schema"]).succeeded().json();

@@ -2,16 +2,16 @@
 
 use super::{STUDY, Workspace};
 
-/// Two studies that have been run: three lengths of the crack, and one of them again with smaller elements.
+/// Two studies that have been run: three lengths of the crack, and one of them again pulled faster.
 fn two() -> Workspace {
     let place = Workspace::new();
     place.cgaft(&["study", "run", "slab.yaml"]).succeeded();
-    let fine = STUDY
-        .replace("study: slab", "study: fine")
-        .replace("element: 10", "element: 5");
-    let (head, _) = fine.split_once("  B:").unwrap();
-    std::fs::write(place.path("fine.yaml"), head).unwrap();
-    place.cgaft(&["study", "run", "fine.yaml"]).succeeded();
+    let fast = STUDY
+        .replace("study: slab", "study: fast")
+        .replace("9.81e7 /s", "1.962e8 /s");
+    let (head, _) = fast.split_once("  B:").unwrap();
+    std::fs::write(place.path("fast.yaml"), head).unwrap();
+    place.cgaft(&["study", "run", "fast.yaml"]).succeeded();
     place
 }
 
@@ -23,23 +23,23 @@ fn cells(text: &str) -> Vec<Vec<&str>> {
 #[test]
 fn a_table_of_many_studies_has_what_differs_between_their_cases_as_columns() {
     let place = two();
-    let folders = ["results/fine", "results/slab"];
+    let folders = ["results/fast", "results/slab"];
     let said = place
         .cgaft(&[&["table", "summary", "--csv"][..], &folders].concat())
         .succeeded();
     let cells = cells(&said.stdout);
     assert_eq!(
         cells[0][..4],
-        ["study", "case", "resolution_element", "crack_length_nm"]
+        ["study", "case", "crack_length_nm", "loading_strain_rate_rate_per_s"]
     );
     let rows: Vec<&[&str]> = cells[1..].iter().map(|row| &row[..4]).collect();
     assert_eq!(
         rows,
         [
-            ["fine", "A", "5", "46"],
-            ["slab", "A", "10", "46"],
-            ["slab", "B", "10", "50"],
-            ["slab", "C", "10", "55"]
+            ["fast", "A", "46", "196200000"],
+            ["slab", "A", "46", "98100000"],
+            ["slab", "B", "50", "98100000"],
+            ["slab", "C", "55", "98100000"]
         ]
     );
     assert!(cells[0].contains(&"initiation_strain"), "{:?}", cells[0]);
@@ -48,7 +48,7 @@ fn a_table_of_many_studies_has_what_differs_between_their_cases_as_columns() {
         .succeeded()
         .stdout;
     assert!(
-        screen.starts_with("study  case  resolution_element  crack_length_nm"),
+        screen.starts_with("study  case  crack_length_nm  loading_strain_rate_rate_per_s"),
         "{screen}"
     );
     assert!(
