@@ -251,6 +251,10 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
         }
     }
     let optional = [
+        "cheapest_choice.csv",
+        "cheapest_choice.parquet",
+        "speed_against_error.csv",
+        "speed_against_error.parquet",
         "comparison.csv",
         "comparison.parquet",
         "side_by_side.csv",

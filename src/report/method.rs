@@ -2,6 +2,7 @@
 
 use super::numbers::significant;
 use super::tables::{first_branch, k_ic, wave_arrival};
+use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
 use super::{Analysed, resolution};
 use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
@@ -17,6 +18,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         notes.extend(of_cracks(cases));
     }
     notes.extend(of_all(has_crack));
+    notes.extend(constants(cases));
     notes.extend(resolution::notes(cases));
     let treatment = |case: &Analysed| {
         let about = case
@@ -33,6 +35,31 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
     treatments.dedup();
     notes.extend(treatments.into_iter().map(|text| ("Potential", text)));
     notes
+}
+
+/// The constants of each material among the cases.
+fn constants(cases: &[Analysed]) -> Vec<(&'static str, String)> {
+    let mut told: Vec<String> = Vec::new();
+    for setting in cases.iter().filter_map(|case| case.result.setting.as_ref()) {
+        let three = |value: f64| significant(value, 3);
+        let text = format!(
+            "r0 = {} nm, E = {} GPa and ν = {} in the plane, c_L = {} m/s, c_T = {} m/s, c_R = {} m/s, 2γ = {} J/m², K of \
+             Griffith = {} MPa √m.",
+            significant(setting.spacing, 4),
+            three(setting.young_modulus / setting.thickness * GIGAPASCAL),
+            three(setting.poisson_ratio),
+            three(setting.longitudinal_speed * METRE_PER_SECOND),
+            three(setting.transverse_speed * METRE_PER_SECOND),
+            three(setting.rayleigh_speed * METRE_PER_SECOND),
+            // 1 GPa nm is 1 J/m².
+            three(setting.fracture_energy / setting.thickness * GIGAPASCAL),
+            three((setting.young_modulus * setting.fracture_energy).sqrt() / setting.thickness * MEGAPASCAL_ROOT_METRE)
+        );
+        if !told.contains(&text) {
+            told.push(text);
+        }
+    }
+    told.into_iter().map(|text| ("Material", text)).collect()
 }
 
 /// What belongs to a crack: its place, its course, K and the waves that come back to it.

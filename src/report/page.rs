@@ -5,7 +5,7 @@ use super::overview::{self, Group, Row};
 use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::table::Table;
-use super::tables::{comparison, specimen};
+use super::tables::{cheapest, comparison, specimen, speed_against_error};
 use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling, verdict};
 use crate::plan::Comparison;
 use crate::units::amounts::duration;
@@ -65,6 +65,7 @@ impl Page<'_> {
             specimens => list(&specimen::notes(self.cases), pair),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             scaling => self.scaling.map(|found| self.scaling(found)),
+            economies => self.economies(),
             comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),
             panels => list(self.panels, panel),
             missing => self.study.others.iter().filter_map(|other| other.missing.clone()).collect::<Vec<String>>(),
@@ -100,6 +101,14 @@ impl Page<'_> {
     fn scaling(&self, found: &scaling::Findings) -> Value {
         let rows: Vec<Vec<String>> = found.rows.iter().map(scaling::cells).collect();
         context! { columns => scaling::HEADS, rows, notes => list(&scaling::notes(self.study, self.cases, found), pair) }
+    }
+
+    /// The cheapest case that is near enough, for each quantity; nothing where there are too few cases.
+    fn economies(&self) -> Option<Value> {
+        let rows = speed_against_error::rows(self.cases);
+        let (heads, lines) = cheapest::shown(&rows);
+        let advice = cheapest::recommendations(&rows);
+        (!lines.is_empty()).then(|| context! { advice, heads, rows => lines })
     }
 
     /// What comes from elsewhere beside what the cases say.
