@@ -4,6 +4,9 @@ use super::Analysed;
 use super::tables::first_branch;
 use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, PERCENT};
 
+/// A value, and what it is not known to.
+pub type Measured = (f64, Option<f64>);
+
 /// A quantity of a case that a question is about.
 pub struct Headline {
     /// Part of a file name.
@@ -17,7 +20,7 @@ pub struct Headline {
     /// What the number behind ± is.
     pub error: &'static str,
     /// The value, and what it is not known to.
-    pub of: fn(&Analysed) -> Option<(f64, Option<f64>)>,
+    pub of: fn(&Analysed) -> Option<Measured>,
 }
 
 pub const START: Headline = Headline {

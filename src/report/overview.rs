@@ -289,7 +289,7 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "K at initiation, J-integral", |case| {
             or_reference(case, case.difference.stress_intensity.map(signed_percent))
         }),
-        row(cases, "times fewer core-seconds a simulated ps", |case| {
+        row(cases, "times fewer core-seconds per simulated ps", |case| {
             or_reference(case, times_faster(case, cases))
         }),
     ]

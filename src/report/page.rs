@@ -58,7 +58,8 @@ impl Page<'_> {
             name => &self.study.name,
             question => self.study.question.as_ref(),
             text => &self.study.text,
-            verdict => self.verdict(),
+            verdict => self.verdict().join(" "),
+            sentences => self.verdict(),
             names => list(self.cases, |case| case.name().into()),
             many => self.cases.len() > MOST_ABREAST,
             groups => list(&self.groups(), group),
@@ -90,9 +91,9 @@ impl Page<'_> {
         }
     }
 
-    fn verdict(&self) -> String {
+    fn verdict(&self) -> Vec<String> {
         match self.scaling.and_then(scaling::verdict) {
-            Some(gain) => format!("{} {gain}", verdict::done(self.cases)),
+            Some(gain) => vec![format!("{} {gain}", verdict::done(self.cases))],
             None => verdict::verdict(self.cases),
         }
     }

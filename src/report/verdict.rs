@@ -37,7 +37,7 @@ fn effort(cases: &[Analysed]) -> Option<String> {
 }
 
 /// Some sentences that answer: what came out, and how sure is it? Then: did it work, and for what effort?
-pub fn verdict(cases: &[Analysed]) -> String {
+pub fn verdict(cases: &[Analysed]) -> Vec<String> {
     let mut sentences = match sweep::series(cases) {
         Some((key, series)) => over_the_sweep(cases, key, &series),
         None => case_by_case(cases),
@@ -45,7 +45,7 @@ pub fn verdict(cases: &[Analysed]) -> String {
     sentences.extend(beware::sentences(cases));
     sentences.push(done(cases));
     sentences.extend(effort(cases));
-    sentences.join(" ")
+    sentences
 }
 
 /// The range of each quantity over the sweep, where its ends are, and which way it goes.
@@ -67,7 +67,7 @@ fn over_the_sweep(cases: &[Analysed], key: &Swept, series: &[Series]) -> Vec<Str
         .collect();
     match still.len() {
         0 => {}
-        ..=MOST_NAMED => sentences.push(format!("No crack starts in {}.", still.join(", "))),
+        1..=MOST_NAMED => sentences.push(format!("No crack starts in {}.", still.join(", "))),
         number => sentences.push(format!("No crack starts in {number} of {} cases.", cases.len())),
     }
     sentences

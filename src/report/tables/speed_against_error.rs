@@ -166,7 +166,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
                  reference. Diamonds at the lower edge: what the reference itself costs, and other programs.",
                 quantity.words()
             ),
-            x: "cost (core-seconds a simulated ps)".to_owned(),
+            x: "cost (core-seconds per simulated ps)".to_owned(),
             y: format!("error of {} (%)", quantity.words()),
             content: Content::Points(Scatter {
                 points,
