@@ -29,8 +29,8 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
     let of_steps = sized
         .iter()
         .filter_map(|&(name, estimate)| Some((name, warning(estimate)?)));
-    let of_methods = plan.cases.iter().flat_map(|planned| {
-        let cautions = cautions(&planned.case).into_iter();
+    let of_methods = plan.cases.iter().zip(&estimates).flat_map(|(planned, estimate)| {
+        let cautions = cautions(&planned.case, estimate.time()).into_iter();
         cautions.map(|caution| (planned.name.as_str(), caution))
     });
     let of_runs = warnings::once(of_steps.chain(of_methods));

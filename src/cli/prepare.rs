@@ -134,8 +134,8 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         .iter()
         .zip(estimates.iter().map(|estimate| &estimate.specimen))
         .collect();
-    let cautions = asked.iter().flat_map(|planned| {
-        let cautions = cautions(&planned.case).into_iter();
+    let cautions = asked.iter().zip(&estimates).flat_map(|(planned, estimate)| {
+        let cautions = cautions(&planned.case, estimate.time()).into_iter();
         cautions.map(|caution| (planned.name.as_str(), caution))
     });
     let mut warnings = specimen::warnings(&laid);

@@ -27,11 +27,6 @@ pub enum SetupError {
         every: f64,
         time: f64,
     },
-    /// Between two pictures, and of the run, ps.
-    NoPictures {
-        every: f64,
-        time: f64,
-    },
     /// An interval, and the shortest that has a meaning, ps.
     TooShort {
         subject: Subject,
@@ -138,14 +133,6 @@ impl SetupError {
                      anything happens"
                 ),
                 format!("probe every {:.2e} ps or more often", time / 100.0),
-            )
-            .with(Subject::Until, "of a run that ends here"),
-            Self::NoPictures { every, time } => Refusal::new(
-                Subject::Snapshots,
-                format!(
-                    "with a picture every {every:.3} ps a run of about {time:.3} ps has none but those of its start and its end"
-                ),
-                format!("let there be {:.2e} ps or less between two, or leave `snapshots` out", time / 2.0),
             )
             .with(Subject::Until, "of a run that ends here"),
             Self::TooShort {

@@ -2,7 +2,7 @@
 
 use super::census::{Census, MESHED};
 use super::geometry::{self, Geometry, Notch};
-use super::intervals::{refuse_too_long, refuse_too_short};
+use super::intervals::refuse_too_short;
 use super::leftovers::Leftovers;
 use crate::forces::Summation;
 use crate::lattice::triangular;
@@ -32,6 +32,13 @@ pub struct Estimate {
     pub disk_bytes: u64,
     /// Wall time on one thread, s.
     pub seconds: f64,
+}
+
+impl Estimate {
+    /// Simulated time of the whole run, ps.
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.time_step
+    }
 }
 
 /// A specimen as it is laid out.
@@ -229,7 +236,6 @@ fn estimate_with(
         return Err(SetupError::TooFewProbes { every, time });
     }
     refuse_too_short(case, time_step)?;
-    refuse_too_long(case, time)?;
     // The constants are those of nearest neighbours, three bonds a site; half of what an atom costs is not bonds.
     let reach = LOOKED_AT * material.interaction.cutoff() / material.spacing;
     let bonds = triangular::half_vectors_within(reach).len() as f64 / 3.0;

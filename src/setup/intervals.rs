@@ -55,16 +55,8 @@ pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
     Ok(())
 }
 
-/// Refuses pictures that a run of so many ps would end before.
-pub fn refuse_too_long(case: &Case, time: f64) -> Result<(), SetupError> {
-    match between_pictures(case) {
-        Some(every) if every > time => Err(SetupError::NoPictures { every, time }),
-        _ => Ok(()),
-    }
-}
-
-/// ps
-fn between_pictures(case: &Case) -> Option<f64> {
+/// Time between two pictures, ps.
+pub fn between_pictures(case: &Case) -> Option<f64> {
     let Loading::StrainRate { rate, .. } = case.loading;
     case.snapshots.every.map(|interval| match interval {
         SnapshotInterval::Strain(strain) => strain / rate,

@@ -1,5 +1,6 @@
 //! The program as a person uses it, with a script in the place of the solver.
 
+mod cautions;
 mod export;
 mod interrupt;
 mod messages;
