@@ -23,7 +23,7 @@ help:
 	@echo 'make chapter-5    the same, then in small elements, mixed, in atoms (D alone), cases 1 and 2, branching-control and convergence-D, each also by its name'
 	@echo 'make scaling      what ranks gain here, and what more of them would; writes reports/scaling-fixed and reports/scaling-scaled'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
-	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin)'
+	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin), with their man pages'
 	@echo 'make schema       write schemas/study.schema.json again from the types'
 	@echo 'make setup        install the Debian packages that are missing'
 
@@ -101,7 +101,8 @@ install: build
 	@if [ -n '$(PREFIX)' ]; then bin='$(PREFIX)/bin'; else bin="$${CARGO_HOME:-$$HOME/.cargo}/bin"; fi; \
 	if [ -z '$(PREFIX)' ] && ! { [ -d "$$bin" ] && [ -w "$$bin" ]; }; then bin="$$HOME/.local/bin"; fi; \
 	mkdir -p "$$bin" && install -m 755 $(TARGET)/release/cgaft $(TARGET)/release/cgaft-solve "$$bin" || exit 1; \
-	echo "installed cgaft and cgaft-solve in $$bin"; \
+	$(TARGET)/release/cgaft man "$$(dirname "$$bin")/share/man/man1" >/dev/null || exit 1; \
+	echo "installed cgaft and cgaft-solve in $$bin, their man pages beside it in share/man"; \
 	case ":$$PATH:" in *":$$bin:"*) ;; *) echo "put it on the PATH: export PATH=\"$$bin:\$$PATH\"" ;; esac
 
 setup:
@@ -110,6 +111,6 @@ setup:
 	@.ci/packages $(MPI_PACKAGES) || echo 'going on without MPI: cases use threads, on one machine each'
 
 test-setup: setup
-	@.ci/python target/python h5py numpy vtk
+	@.ci/python target/python h5py numpy vtk pandas pyvista ovito ase
 	@CARGO=$(CARGO) .ci/solver $(TARGET) --example one_rank_panics
 	@mkdir -p target/mpi && cp $(TARGET)/release/cgaft-solve $(TARGET)/release/examples/one_rank_panics target/mpi/

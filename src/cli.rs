@@ -2,6 +2,7 @@
 
 mod cancel;
 mod check;
+mod choices;
 mod clean;
 mod cluster;
 mod completions;
@@ -10,6 +11,7 @@ mod error;
 mod estimate;
 mod export;
 mod format;
+mod man;
 mod new;
 mod plan;
 mod prepare;
@@ -23,6 +25,7 @@ pub mod solve;
 mod specimen;
 mod status;
 mod survey;
+mod table;
 mod terminal;
 mod warnings;
 
@@ -53,11 +56,15 @@ enum Command {
     /// Write a case as input of another program
     #[command(subcommand)]
     Export(export::Command),
+    /// Put one table of many studies together
+    Table(table::Arguments),
     /// Print the JSON Schema of a study file, for editors
     Schema,
     /// Write a commented study to start from
     New(new::Arguments),
-    /// Print completions for a shell
+    /// Write man pages of both programs
+    Man(man::Arguments),
+    /// Print completions of both programs for a shell
     Completions(completions::Arguments),
     /// Tell what this machine has, and what to do about the rest
     Doctor(doctor::Arguments),
@@ -124,8 +131,11 @@ impl Command {
             Command::Study(StudyCommand::Report(arguments)) => report::rebuild_report(&arguments),
             Command::Study(StudyCommand::Clean(arguments)) => clean::clean(&arguments),
             Command::Export(export::Command::Lammps(arguments)) => export::lammps(&arguments),
+            Command::Export(export::Command::Ovito(arguments)) => export::ovito::ovito(&arguments),
+            Command::Table(arguments) => table::table(&arguments),
             Command::Schema => schema::schema(),
             Command::New(arguments) => new::new(&arguments),
+            Command::Man(arguments) => man::man(&arguments),
             Command::Completions(arguments) => completions::completions(&arguments),
             Command::Doctor(arguments) => doctor::doctor(&arguments),
             Command::SlurmJob(arguments) => slurm_job::slurm_job(&arguments),
@@ -142,6 +152,7 @@ impl Command {
             Command::Study(StudyCommand::Report(arguments)) => arguments.common.json,
             Command::Study(StudyCommand::Clean(arguments)) => arguments.of.common.json,
             Command::Export(export::Command::Lammps(arguments)) => arguments.common.json,
+            Command::Export(export::Command::Ovito(arguments)) => arguments.of.common.json,
             Command::Doctor(arguments) => arguments.json,
             _ => false,
         }

@@ -1,9 +1,11 @@
 //! A study becomes a list of cases, each with a name, every choice made, and an identity.
 
+mod compared;
 mod comparison;
 mod difference;
 mod duplicates;
 mod expansion;
+mod figures;
 mod identity;
 mod label;
 mod name;
@@ -15,15 +17,18 @@ mod spelling;
 mod stages;
 mod starter;
 mod sweep;
+mod swept;
 mod write;
 
-pub use comparison::{COMPARED, Compared, Comparison, Expected, SCALING, reference};
+pub use compared::{COMPARED, Compared, SCALING};
+pub use comparison::{Comparison, Expected, reference};
 pub use difference::explain_difference;
 pub use identity::{CaseId, RunId};
 pub use side_by_side::SideBySide;
 pub use spelling::spelled;
 pub use stages::Stages;
 pub use starter::starter;
+pub use swept::{Swept, SweptValue};
 pub use write::write_case;
 
 use crate::study::{
@@ -40,6 +45,8 @@ pub struct Plan {
     pub question: Option<String>,
     /// Headline of the report.
     pub title: Option<String>,
+    /// Width of the figures as files of their own, nm.
+    pub figure_width: Option<f64>,
     /// The case to be shown in pictures, and at which strains.
     pub stages: Option<Stages>,
     /// Where the cases are to show what ranks gain: what becomes of the specimen meanwhile.
@@ -67,6 +74,10 @@ pub struct PlannedCase {
     pub tables: Vec<Table>,
     /// Of its run.
     pub id: RunId,
+    /// The name that the sweep started from; its own where there is no sweep.
+    pub origin: String,
+    /// What the sweep has set in it, in the order of the sweep.
+    pub swept: Vec<Swept>,
 }
 
 /// Expand a study into its cases. All mistakes of the file, those of reading it too, come back at once.
@@ -83,6 +94,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     let number = drafts.len();
     let comparisons = comparison::read(study, &drafts, findings);
     let stages = stages::resolve(study, &drafts, findings);
+    let figure_width = figures::width(study, findings);
     let beside = side_by_side::others(study, findings);
     let side_by_side = side_by_side::resolve(study, &drafts, findings);
     let cluster = study::cluster::resolve(&content.cluster, findings);
@@ -98,12 +110,14 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         if let Some(resolved) = resolve(&draft.values, &draft.name, findings) {
             let id = RunId::of(&resolved.case);
             typed.insert(draft.name.clone(), draft.values);
-            origins.push((draft.origin, draft.place));
+            origins.push((draft.origin.clone(), draft.place));
             cases.push(PlannedCase {
                 name: draft.name,
                 case: resolved.case,
                 tables: resolved.tables,
                 id,
+                origin: draft.origin,
+                swept: draft.swept,
             });
         }
     }
@@ -121,6 +135,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
         study: name,
         question: text(&content.question),
         title: content.report.right().and_then(|report| text(&report.title)),
+        figure_width,
         stages,
         scaling,
         comparisons,

@@ -5,6 +5,8 @@ mod beware;
 mod chart;
 mod figures;
 mod film;
+mod headline;
+mod joined;
 mod method;
 mod numbers;
 mod overview;
@@ -16,11 +18,14 @@ mod scaling;
 mod side_by_side;
 mod slab;
 mod study;
+mod sweep;
 mod table;
 mod tables;
 mod units;
+mod verdict;
 
 pub use film::Film;
+pub use joined::{Joined, Part};
 pub use study::{CaseResult, Failure, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
 
 use std::fs;
@@ -31,6 +36,7 @@ use rayon::prelude::*;
 
 use crate::analysis::comparison::{self, Candidate, Difference};
 use crate::analysis::{self, Findings};
+use crate::durable;
 use crate::record::RecordError;
 
 /// What went wrong while a report was made.
@@ -64,6 +70,23 @@ struct Analysed<'a> {
 impl Analysed<'_> {
     fn name(&self) -> &str {
         &self.result.name
+    }
+
+    /// Its name as part of the name of a file.
+    fn file_part(&self) -> String {
+        let plain = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
+        self.name()
+            .chars()
+            .map(|letter| if plain(letter) { letter } else { '-' })
+            .collect()
+    }
+
+    /// Whether there is a crack to be followed; before the set-up of a case its choices tell.
+    fn has_crack(&self) -> bool {
+        match &self.result.setting {
+            Some(setting) => setting.crack_row.is_some(),
+            None => self.result.choices.iter().any(|(key, _)| key.starts_with("crack.")),
+        }
     }
 
     /// nm/ps
@@ -119,7 +142,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
     charts.extend(figures::charts(&cases, &study.comparisons));
     let mut drawn = Vec::new();
     for chart in &charts {
-        let svg = chart.draw()?;
+        let svg = chart.draw(study.figure_width)?;
         save(
             &folder.join("figures").join(format!("{}.svg", chart.id)),
             svg.standalone.as_bytes(),
@@ -228,6 +251,10 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
         }
     }
     let optional = [
+        "cheapest_choice.csv",
+        "cheapest_choice.parquet",
+        "speed_against_error.csv",
+        "speed_against_error.parquet",
         "comparison.csv",
         "comparison.parquet",
         "side_by_side.csv",
@@ -243,7 +270,7 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
 }
 
 fn save(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
-    fs::write(path, bytes).map_err(|source| ReportError::Write {
+    durable::write(path, bytes).map_err(|source| ReportError::Write {
         path: path.to_owned(),
         source,
     })

@@ -37,6 +37,8 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
+use crate::durable;
+
 /// Layout of the folder; goes up when an older program would misread it.
 const FORMAT: u32 = 1;
 
@@ -61,7 +63,7 @@ impl Store {
             root: results.join(study),
         };
         let mark = store.mark();
-        let text = match fs::read_to_string(&mark) {
+        let text = match durable::read_to_string(&mark) {
             Ok(text) => text,
             // A file in the place of the folder is told by who wants to write there.
             Err(error) if matches!(error.kind(), ErrorKind::NotFound | ErrorKind::NotADirectory) => return Ok(store),

@@ -215,6 +215,20 @@ pub fn canonical(text: &str) -> Option<String> {
     Some(format(value, dimension))
 }
 
+/// A number and the unit in which quantities of its dimension are written out: `0.1 um` is 100 and `nm`; a plain number has
+/// no unit. `None` for a text that is neither.
+pub fn measured(text: &str) -> Option<(f64, &'static str)> {
+    let (number, unit) = Decimal::split(text.trim())?;
+    if unit.trim().is_empty() {
+        return Some((number.to_string().parse().ok()?, ""));
+    }
+    let read = |dimension: Dimension| Some((parse(text, dimension).ok()?, dimension));
+    let (value, dimension) = Dimension::ALL.into_iter().find_map(read)?;
+    let written = format(value, dimension);
+    let (number, _) = Decimal::split(&written)?;
+    Some((number.to_string().parse().ok()?, dimension.written()))
+}
+
 fn missing_unit(text: &str, number: &Decimal, expected: Dimension) -> UnitError {
     let written = expected.written();
     let suggestion = match expected {

@@ -6,6 +6,7 @@ use super::estimate::estimates;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
 use super::{CliError, format, room, specimen, warnings};
+use crate::plan::PlannedCase;
 use crate::setup::{Estimate, cautions};
 
 /// `cgaft study check FILE`
@@ -18,7 +19,8 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
         .map(|case| case.name.as_str())
         .zip(&estimates)
         .collect();
-    let cases: Vec<_> = sized.iter().map(|(name, estimate)| to_json(name, estimate)).collect();
+    let sizes = plan.cases.iter().zip(&estimates);
+    let cases: Vec<_> = sizes.map(|(planned, estimate)| to_json(planned, estimate)).collect();
     let laid: Vec<_> = plan
         .cases
         .iter()
@@ -27,15 +29,21 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
     let of_steps = sized
         .iter()
         .filter_map(|&(name, estimate)| Some((name, warning(estimate)?)));
-    let of_methods = plan.cases.iter().flat_map(|planned| {
-        let cautions = cautions(&planned.case).into_iter();
+    let of_methods = plan.cases.iter().zip(&estimates).flat_map(|(planned, estimate)| {
+        let cautions = cautions(&planned.case, estimate.time()).into_iter();
         cautions.map(|caution| (planned.name.as_str(), caution))
     });
     let of_runs = warnings::once(of_steps.chain(of_methods));
     let needed = estimates.iter().map(|estimate| estimate.disk_bytes).sum();
     let of_disk = room::warning(Path::new("results"), needed);
     let mut warnings = specimen::warnings(&laid);
-    warnings.extend(of_runs.into_iter().chain(of_disk));
+    let most_ranks = plan
+        .cases
+        .iter()
+        .filter_map(|planned| planned.case.execution.ranks)
+        .max();
+    let of_ranks = most_ranks.and_then(warnings::of_ranks);
+    warnings.extend(of_runs.into_iter().chain(of_ranks).chain(of_disk));
     let json = json!({ "study": plan.study, "cases": cases, "warnings": warnings });
     let terminal = Terminal {
         quiet: false,
@@ -112,9 +120,9 @@ fn row(name: &str, estimate: &Estimate) -> Vec<String> {
     ]
 }
 
-fn to_json(name: &str, estimate: &Estimate) -> serde_json::Value {
-    json!({
-        "case": name,
+fn to_json(planned: &PlannedCase, estimate: &Estimate) -> serde_json::Value {
+    let mut json = json!({
+        "case": planned.name,
         "nodes": estimate.nodes,
         "elements": estimate.elements,
         "represented_atoms": estimate.represented_atoms,
@@ -126,5 +134,9 @@ fn to_json(name: &str, estimate: &Estimate) -> serde_json::Value {
         "memory_bytes": estimate.memory_bytes,
         "disk_bytes": estimate.disk_bytes,
         "estimated_s": estimate.seconds,
-    })
+    });
+    if !planned.swept.is_empty() {
+        json["swept"] = survey::swept(planned);
+    }
+    json
 }

@@ -1,4 +1,3 @@
-use std::fs;
 use std::path::Path;
 use std::thread;
 
@@ -7,6 +6,7 @@ use serde_json::json;
 
 use super::terminal::Terminal;
 use super::{CliError, format};
+use crate::durable;
 use crate::executor::exit;
 use crate::executor::launch;
 use crate::executor::mpi::{self, Speaks};
@@ -104,7 +104,7 @@ fn cores() -> Finding {
 }
 
 fn memory() -> Finding {
-    let text = fs::read_to_string("/proc/meminfo").unwrap_or_default();
+    let text = durable::read_to_string(Path::new("/proc/meminfo")).unwrap_or_default();
     let kibibytes = |key: &str| {
         let line = text.lines().find(|line| line.starts_with(key))?;
         line.split_whitespace().nth(1)?.parse::<u64>().ok()

@@ -1,3 +1,5 @@
+pub mod ovito;
+
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -19,6 +21,8 @@ use crate::study::case;
 pub enum Command {
     /// Write the LAMMPS input script and data file of an all-atom case
     Lammps(Arguments),
+    /// Write the pictures of a case as extended XYZ, for OVITO and ASE
+    Ovito(ovito::Arguments),
 }
 
 #[derive(Args, Debug)]

@@ -3,13 +3,25 @@ use std::io::{self, Write};
 
 use clap::Args;
 
-use super::{CliError, terminal};
+use super::{CliError, schema, terminal};
 use crate::plan;
 
 #[derive(Args, Debug)]
 pub struct Arguments {
     /// Name of the study; NAME.yaml is written into the current folder
     pub name: String,
+}
+
+/// The schema that the first line of a new study names.
+const SCHEMA: &str = "study.schema.json";
+
+/// Writes the schema beside the study; not where there is one.
+fn write_schema() -> io::Result<bool> {
+    match File::create_new(SCHEMA) {
+        Ok(mut file) => file.write_all(schema::text().as_bytes()).map(|()| true),
+        Err(error) if error.kind() == io::ErrorKind::AlreadyExists => Ok(false),
+        Err(error) => Err(error),
+    }
 }
 
 /// `cgaft new NAME`
@@ -25,8 +37,18 @@ pub fn new(arguments: &Arguments) -> Result<u8, CliError> {
     let write = || File::create_new(&path)?.write_all(plan::starter(name).as_bytes());
     match write() {
         Ok(()) => {
+            let beside = match write_schema() {
+                Ok(true) => format!(" and {SCHEMA}, with which an editor completes and checks it"),
+                Ok(false) => String::new(),
+                Err(source) => {
+                    return Err(CliError::Output {
+                        what: SCHEMA.to_owned(),
+                        source,
+                    });
+                }
+            };
             terminal::print(&format!(
-                "wrote {path}; look at its size with `cgaft study check {path}`, run it with `cgaft study run {path}`\n"
+                "wrote {path}{beside}; look at its size with `cgaft study check {path}`, run it with `cgaft study run {path}`\n"
             ))?;
             Ok(0)
         }

@@ -4,7 +4,7 @@ use serde_json::json;
 use super::prepare::{self, Arguments as RunArguments, CrewChoice, On};
 use super::survey::{self, OfResults};
 use super::terminal::Terminal;
-use super::{CliError, cluster};
+use super::{CliError, cluster, warnings};
 use crate::executor::launch;
 use crate::executor::share::Crew;
 use crate::store::State;
@@ -13,8 +13,8 @@ use crate::store::State;
 pub struct Arguments {
     #[command(flatten)]
     pub of: OfResults,
-    /// Show this case only; may be given several times
-    #[arg(long, value_name = "CASE")]
+    /// Show these cases only: names or patterns such as 'length-10nm*', with commas between them; may be given several times
+    #[arg(long, value_name = "CASES", value_delimiter = ',')]
     pub only: Vec<String>,
     #[command(flatten)]
     pub crew: CrewChoice,
@@ -79,10 +79,13 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
     }
     let mut json = json!({ "study": survey.plan.study, "cases": cases });
     let number = prepared.jobs.len();
+    let most_ranks = |of_cluster: Option<u32>| prepared.jobs.iter().filter_map(|job| job.ranks.or(of_cluster)).max();
+    let warning;
     match arguments.on {
         On::Local => {
             json["jobs"] = json!(share.jobs);
             json["threads"] = json!(share.threads);
+            warning = most_ranks(None).and_then(warnings::of_ranks);
             words.push_str(&format!("\n{}\n", prepared.summary()));
             if number > 0 {
                 words.push_str(
@@ -92,6 +95,7 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
         }
         On::Slurm => {
             let setting = cluster::setting(&survey, arguments)?;
+            warning = most_ranks(setting.cluster.ranks).and_then(warnings::of_ranks_elsewhere);
             let scripts = cluster::scripts_of(&survey, &prepared, &setting);
             let texts: Vec<String> = scripts.iter().map(ToString::to_string).collect();
             words.push_str(&format!("\n{}\n", cluster::summary(&survey, &prepared)));
@@ -99,6 +103,10 @@ pub fn show(arguments: &RunArguments) -> Result<u8, CliError> {
             json["scripts"] = json!(texts);
         }
     }
+    if let Some(warning) = &warning {
+        words.push_str(&format!("{warning}\n"));
+    }
+    json["warnings"] = json!(warning.into_iter().collect::<Vec<String>>());
     Terminal {
         quiet: false,
         json: arguments.common.json,

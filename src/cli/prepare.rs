@@ -3,6 +3,7 @@
 use std::thread;
 
 use clap::{Args, ValueEnum};
+use glob::Pattern;
 use jiff::Timestamp;
 
 use super::estimate::estimates;
@@ -21,8 +22,8 @@ pub struct Arguments {
     pub common: Common,
     #[command(flatten)]
     pub place: Place,
-    /// Run this case only; may be given several times
-    #[arg(long, value_name = "CASE")]
+    /// Run these cases only: names or patterns such as 'length-10nm*', with commas between them; may be given several times
+    #[arg(long, value_name = "CASES", value_delimiter = ',')]
     pub only: Vec<String>,
     #[command(flatten)]
     pub crew: CrewChoice,
@@ -49,10 +50,10 @@ pub struct CrewChoice {
     /// Cases at once [default: what ends first without more ranks and threads than cores; on Slurm, as many as it starts]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     pub jobs: Option<u16>,
-    /// MPI ranks a case [default: what the study says, else 1]
+    /// MPI ranks per case [default: what the study says, else 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_RANKS)))]
     pub ranks: Option<u32>,
-    /// Threads a rank [default: the cores of this machine, shared between jobs and ranks; on Slurm, what the study says,
+    /// Threads per rank [default: the cores of this machine, shared between jobs and ranks; on Slurm, what the study says,
     /// else 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u32>,
@@ -89,10 +90,16 @@ impl Arguments {
 /// The cases that the user means, as positions in the study.
 pub fn chosen(survey: &Survey, only: &[String]) -> Result<Vec<usize>, CliError> {
     let names: Vec<&str> = survey.entries.iter().map(|entry| entry.planned.name.as_str()).collect();
+    let mut patterns = Vec::new();
     for wanted in only {
-        survey::named(&survey.plan, wanted)?;
+        let pattern = Pattern::new(wanted)
+            .map_err(|error| CliError::Input(format!("--only: `{wanted}` is no pattern of names: {error}")))?;
+        if !names.iter().any(|name| pattern.matches(name)) {
+            survey::named(&survey.plan, wanted)?;
+        }
+        patterns.push(pattern);
     }
-    let means = |name: &str| only.is_empty() || only.iter().any(|wanted| wanted == name);
+    let means = |name: &str| only.is_empty() || patterns.iter().any(|pattern| pattern.matches(name));
     Ok((0..names.len()).filter(|&position| means(names[position])).collect())
 }
 
@@ -127,8 +134,8 @@ pub fn prepare(survey: &Survey, chosen: &[usize], arguments: &Arguments) -> Resu
         .iter()
         .zip(estimates.iter().map(|estimate| &estimate.specimen))
         .collect();
-    let cautions = asked.iter().flat_map(|planned| {
-        let cautions = cautions(&planned.case).into_iter();
+    let cautions = asked.iter().zip(&estimates).flat_map(|(planned, estimate)| {
+        let cautions = cautions(&planned.case, estimate.time()).into_iter();
         cautions.map(|caution| (planned.name.as_str(), caution))
     });
     let mut warnings = specimen::warnings(&laid);

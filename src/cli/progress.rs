@@ -4,10 +4,12 @@ mod bars;
 mod lines;
 mod pace;
 mod teller;
+mod whole;
 
 pub use teller::{Style, teller};
 
 use pace::Pace;
+use whole::Whole;
 
 use std::io::{IsTerminal, stderr};
 
@@ -17,12 +19,12 @@ use crate::executor::{Ending, Job, Progress, Watcher};
 use crate::store::{Failure, Reached, Store};
 
 /// The way of showing progress that fits where the output goes.
-pub fn watcher(terminal: Terminal, store: &Store) -> Box<dyn Watcher> {
-    let folders = store.clone();
+pub fn watcher(terminal: Terminal, store: &Store, jobs: &[Job]) -> Box<dyn Watcher> {
+    let (folders, whole) = (store.clone(), Whole::of(jobs));
     if stderr().is_terminal() && !terminal.quiet {
-        Box::new(bars::Bars::new(terminal, folders))
+        Box::new(bars::Bars::new(terminal, folders, whole))
     } else {
-        Box::new(lines::Lines::new(terminal, folders))
+        Box::new(lines::Lines::new(terminal, folders, whole))
     }
 }
 
@@ -33,6 +35,12 @@ fn progress_words(progress: &Progress, pace: &mut Pace) -> String {
         .seconds_left(progress.percent)
         .map(|left| format!("about {} left  ", format::duration(left)));
     format!("{}{progress}", left.unwrap_or_default())
+}
+
+/// `about 12 min left of the study`; nothing for one case, whose own time is told.
+fn study_words(whole: &Whole) -> Option<String> {
+    let left = whole.is_several().then(|| whole.seconds_left())??;
+    Some(format!("about {} left of the study", format::duration(left)))
 }
 
 const STOPPING: &str = "stopping: the cases write their checkpoints (Ctrl-C again ends them at once)";

@@ -1,7 +1,6 @@
 mod gather;
 mod others;
 
-use std::fs;
 use std::path::PathBuf;
 
 use serde_json::json;
@@ -9,6 +8,7 @@ use serde_json::json;
 use super::CliError;
 use super::survey::{self, OfResults, Survey};
 use super::terminal::{self, Terminal};
+use crate::durable;
 use crate::report;
 use crate::store::{Program, State};
 use others::Other;
@@ -38,7 +38,7 @@ pub struct Built {
 pub fn bring_up_to_date(survey: &mut Survey) -> Result<Built, CliError> {
     let path = survey.store.root().join("report.html");
     let others = others::survey(survey);
-    let current = fs::read_to_string(stamp_path(survey)).is_ok_and(|stamp| stamp == fingerprint(survey, &others));
+    let current = durable::read_to_string(&stamp_path(survey)).is_ok_and(|stamp| stamp == fingerprint(survey, &others));
     if current && path.exists() {
         let damaged = survey.damaged().next().is_some();
         Ok(Built { path, damaged })
@@ -69,7 +69,7 @@ fn rebuild_beside(survey: &mut Survey, others: &[Other]) -> Result<Built, CliErr
 
 fn stamp(survey: &Survey, fingerprint: &str) -> Result<(), CliError> {
     let path = stamp_path(survey);
-    fs::write(&path, fingerprint).map_err(|source| CliError::Output {
+    durable::write(&path, fingerprint).map_err(|source| CliError::Output {
         what: path.display().to_string(),
         source,
     })

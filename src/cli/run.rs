@@ -102,7 +102,7 @@ fn compute(
             .max()
             .unwrap_or(1)
     };
-    let mut watcher = progress::watcher(terminal, store);
+    let mut watcher = progress::watcher(terminal, store, jobs);
     let errand = Errand::new(store, jobs, watcher.as_mut());
     Ok(match arguments.on {
         On::Local => {

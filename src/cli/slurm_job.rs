@@ -28,7 +28,7 @@ pub fn slurm_job(arguments: &Arguments) -> Result<u8, CliError> {
         quiet: false,
         json: false,
     };
-    let mut watcher = progress::watcher(terminal, &store);
+    let mut watcher = progress::watcher(terminal, &store, &[]);
     let ending = job::carry_out(&store, id, &bell, watcher.as_mut())?;
     match ending {
         Some(Ending::Done(_) | Ending::DoneElsewhere(_)) => Ok(0),

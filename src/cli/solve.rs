@@ -8,13 +8,14 @@ use std::sync::{Arc, LazyLock};
 use std::thread;
 use std::time::Duration;
 
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use signal_hook::consts::{SIGINT, SIGTERM};
 use signal_hook::flag;
 
 use super::progress;
 use super::terminal::{self, warn};
 use crate::domain::{self, Ranks};
+use crate::durable;
 use crate::executor::{Progress, exit};
 use crate::plan::{self, CaseId, Plan, PlannedCase};
 use crate::setup::{self, RunCaseError};
@@ -81,6 +82,11 @@ static VERSION: LazyLock<String> = LazyLock::new(|| {
     let version = env!("CARGO_PKG_VERSION");
     format!("{version}\nfeatures: {}", mpi.unwrap_or_else(|| "none".to_owned()))
 });
+
+/// What may be typed, for man pages and completions.
+pub fn command() -> clap::Command {
+    Arguments::command()
+}
 
 /// The whole of `cgaft-solve`.
 pub fn main() -> ExitCode {
@@ -163,7 +169,7 @@ fn refuse_another_case(case: &Case, path: &Path, into: &Path) -> Result<(), Solv
         };
     }
     let text =
-        std::fs::read(path).map_err(|error| SolveError::Input(format!("cannot read {}: {error}", path.display())))?;
+        durable::read(path).map_err(|error| SolveError::Input(format!("cannot read {}: {error}", path.display())))?;
     Ok(store::write(&kept, &text)?)
 }
 

@@ -179,7 +179,7 @@ fn absent_warning(planned: &PlannedCase, specimen: &Specimen) -> Option<String> 
     let absent = specimen.absent?;
     let elements = match absent {
         1 => "single atom".to_owned(),
-        edge => format!("element of {edge} atoms an edge"),
+        edge => format!("element of {edge} atoms per edge"),
     };
     let is_of_case = i64::from(absent) == i64::from(planned.case.resolution.element);
     Some(match is_of_case {

@@ -133,6 +133,9 @@ impl Entry {
         let mut entry = serde_json::json!({
             "case": self.planned.name, "id": self.id, "state": self.word(), "reason": self.reason,
         });
+        if !self.planned.swept.is_empty() {
+            entry["swept"] = swept(&self.planned);
+        }
         if let Some(job) = &self.job {
             entry["slurm_job"] = serde_json::json!(job.slurm_id);
         }
@@ -152,6 +155,12 @@ impl Entry {
     pub fn is_on_slurm(&self) -> bool {
         self.job.as_ref().is_some_and(Whereabouts::is_live)
     }
+}
+
+/// What a sweep has set in a case, by the names of the columns in its tables.
+pub fn swept(planned: &PlannedCase) -> serde_json::Value {
+    let values = planned.swept.iter().map(|swept| (swept.column(), swept.json()));
+    serde_json::Value::Object(values.collect())
 }
 
 fn entries(store: &Store, plan: &Plan) -> Vec<Entry> {

@@ -1,5 +1,7 @@
 //! Warnings of cases: what several have in common is told once.
 
+use crate::executor::{launch, mpi};
+
 /// More names than this are counted.
 const MOST_NAMED: usize = 4;
 
@@ -16,6 +18,23 @@ pub fn once<'a>(found: impl IntoIterator<Item = (&'a str, String)>) -> Vec<Strin
     told.iter().map(sentence).collect()
 }
 
+/// Why so many ranks could not be started on this machine; nothing where the solver is not there yet.
+pub fn of_ranks(ranks: u32) -> Option<String> {
+    let solver = launch::find_solver().ok()?;
+    mpi::check(&solver, ranks)
+        .err()
+        .map(|error| format!("warning: {error}"))
+}
+
+/// The same of ranks that start on another machine, with modules of its own.
+pub fn of_ranks_elsewhere(ranks: u32) -> Option<String> {
+    let solver = launch::find_solver().ok()?;
+    mpi::check_elsewhere(&solver, ranks)
+        .err()
+        .map(|error| format!("warning: {error}"))
+}
+
+/// Cases by name, of many only the first.
 pub fn listed(names: &[&str]) -> String {
     let (named, others) = names.split_at(names.len().min(MOST_NAMED));
     match others.len() {

@@ -1,7 +1,7 @@
 //! Sees a list of cases through: several at once, the longest first, none twice, none stopped by another's failure. Towards
 //! the end cores that nobody waits for go to the case that has the longest way to go.
 
-use std::fs::{self, File};
+use std::fs::File;
 use std::path::{Path, PathBuf};
 use std::process::ExitStatus;
 use std::sync::mpsc::{self, Receiver, Sender};
@@ -13,6 +13,7 @@ use super::exit::{self, Ended};
 use super::local::{self, Event, Running};
 use super::share::{Crew, Share};
 use super::{Ending, Errand, ExecutorError, Launch, Progress, Stop, launch, mpi};
+use crate::durable;
 use crate::store::{Claim, Program, Reached, State, StoreError};
 
 #[derive(Clone, Debug)]
@@ -317,7 +318,7 @@ fn open_log(folder: &Path, command: &Launch) -> Result<File, ExecutorError> {
     use std::io::Write;
     let path = folder.join("log.txt");
     let open = || {
-        let mut log = File::options().create(true).append(true).open(&path)?;
+        let mut log = durable::append(&path)?;
         writeln!(log, "{} {command}", Timestamp::now().strftime("%F %T UTC"))?;
         Ok(log)
     };
@@ -330,7 +331,7 @@ fn open_log(folder: &Path, command: &Launch) -> Result<File, ExecutorError> {
 
 /// The last lines of a log, of which only the end is shown.
 pub fn tail_of(log: &Path) -> Vec<String> {
-    let bytes = fs::read(log).unwrap_or_default();
+    let bytes = durable::read(log).unwrap_or_default();
     let end = &bytes[bytes.len().saturating_sub(1 << 16)..];
     let text = String::from_utf8_lossy(end);
     let lines: Vec<&str> = text.lines().collect();

@@ -21,7 +21,7 @@ use pair_styles::PairStyles;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum ExportError {
     #[error(
-        "its elements have {element} atoms an edge, and LAMMPS knows single atoms only; \
+        "its elements have {element} atoms per edge, and LAMMPS knows single atoms only; \
          export a case with `resolution: {{element: 1}}`"
     )]
     NotAtoms { element: u32 },

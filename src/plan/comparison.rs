@@ -1,8 +1,10 @@
 //! `compare`: values from elsewhere to set beside those of the cases.
 //!
 //! A CSV file with a column `case`, and columns of one table of the report. A row of a case that a sweep varies is
-//! meant for all that come of it. Times of another program on several processors have a column `ranks` instead.
+//! meant for all that come of it. In place of `case` there may be columns of swept keys, as the tables have them: a row is
+//! meant for all cases with these values. Times of another program on several processors have a column `ranks` instead.
 
+use super::compared::{CASE, COMPARED, Compared, RANKS};
 use super::expansion::Draft;
 use crate::study::{Finding, Findings, Place, Study, alternatives, suggestion};
 use serde::Serialize;
@@ -41,111 +43,6 @@ pub fn reference(comparisons: &[Comparison], table: &str, column: &str, case: &s
     };
     Some(values.find(is_it)?.value)
 }
-
-/// A table that can be compared, and its columns.
-pub struct Compared {
-    pub table: &'static str,
-    /// Column that tells what a row is of.
-    pub row: &'static str,
-    /// Columns that tell the rows of one case apart, and all the words that they may hold.
-    pub keys: &'static [(&'static str, &'static [&'static str])],
-    pub values: &'static [&'static str],
-}
-
-impl Compared {
-    /// What a file may have of it, in words.
-    fn columns(&self) -> String {
-        let keys: String = self.keys.iter().map(|key| format!("`{}`, ", key.0)).collect();
-        match self.values {
-            [value] => format!("{keys}`{value}` of `{}`", self.table),
-            _ => format!("{keys}columns of `{}`", self.table),
-        }
-    }
-}
-
-pub const COMPARED: [Compared; 6] = [
-    Compared {
-        table: "summary",
-        row: CASE,
-        keys: &[],
-        values: &[
-            "nodes",
-            "elements",
-            "represented_atoms",
-            "steps",
-            "time_step_ps",
-            "wall_s",
-            "atom_steps_per_s",
-            "energy_error_relative",
-            "cutoff_release_ev",
-            "initiation_strain",
-            "initiation_time_ps",
-            "k_ic_near_tip_mpa_sqrt_m",
-            "k_ic_j_integral_mpa_sqrt_m",
-            "k_griffith_mpa_sqrt_m",
-            "peak_speed_over_c_r",
-            "first_branch_time_ps",
-            "first_branch_strain",
-            "first_bond_strain",
-            "first_bond_time_ps",
-            "speed_share",
-            "joins",
-            "leaves_plane_time_ps",
-            "leaves_plane_strain",
-            "parted_elsewhere_strain",
-        ],
-    },
-    Compared {
-        table: "wave_arrival",
-        row: CASE,
-        keys: &[
-            ("wave", &["longitudinal", "transverse", "rayleigh"]),
-            ("path", &["left face", "right face", "top and bottom faces"]),
-        ],
-        values: &["reference_ps"],
-    },
-    Compared {
-        table: "k_ic",
-        row: CASE,
-        keys: &[],
-        values: &["k_ic_reference_mpa_sqrt_m"],
-    },
-    Compared {
-        table: "first_branch",
-        row: CASE,
-        keys: &[],
-        values: &["reference_from_ps", "reference_to_ps"],
-    },
-    Compared {
-        table: "speed_against_error",
-        row: CASE,
-        keys: &[],
-        values: &["core_seconds_per_ps", "peak_memory_mib"],
-    },
-    Compared {
-        table: SCALING,
-        row: RANKS,
-        keys: &[],
-        values: &[
-            "elements",
-            "steps",
-            "inp_s",
-            "getm_s",
-            "elist_s",
-            "exc_s_per_step",
-            "solv_s_per_step",
-            "out_s",
-        ],
-    },
-];
-
-/// The table of what ranks gain.
-pub const SCALING: &str = "scaling";
-
-/// The column that names cases.
-const CASE: &str = "case";
-/// The column of numbers of ranks.
-const RANKS: &str = "ranks";
 
 /// Reads every file that the study compares with; what is wrong goes to `findings`.
 pub fn read(study: &Study, drafts: &[Draft], findings: &Findings) -> Vec<Comparison> {
@@ -247,7 +144,8 @@ impl Sheet<'_> {
     }
 
     fn table(&self, head: &csv::StringRecord) -> Option<&'static Compared> {
-        if !head.iter().any(|column| column == CASE || column == RANKS) {
+        let by_case = head.iter().any(|column| column == CASE || column == RANKS);
+        if !by_case && !head.iter().any(|column| self.is_swept(column)) {
             let message = format!("{} has no column `{CASE}`", self.file);
             let help = match head.iter().any(|cell| cell.contains([';', '\t'])) {
                 true => "put commas between the cells, in place of semicolons or tabs",
@@ -257,11 +155,14 @@ impl Sheet<'_> {
             return None;
         }
         let has = |table: &Compared, column: &str| {
-            column == table.row || table.values.contains(&column) || table.keys.iter().any(|key| key.0 == column)
+            let is_row = column == table.row || !by_case && table.row == CASE && self.is_swept(column);
+            is_row || table.values.contains(&column) || table.keys.iter().any(|key| key.0 == column)
         };
         let fits = |table: &&Compared| {
             head.iter().all(|column| has(table, column))
-                && head.iter().any(|column| column == table.row)
+                && head
+                    .iter()
+                    .any(|column| column == table.row || !by_case && table.row == CASE && self.is_swept(column))
                 && head.iter().any(|column| table.values.contains(&column))
                 && table.keys.iter().all(|key| head.iter().any(|column| column == key.0))
         };
@@ -296,9 +197,12 @@ impl Sheet<'_> {
 
     fn row(&self, table: &'static Compared, cells: &[(&str, &str)], line: u64, values: &mut Vec<Expected>) {
         let cell = |column: &str| cells.iter().find(|cell| cell.0 == column).map_or("", |cell| cell.1);
-        let Some(cases) = self.rows_of(table, cell(table.row), line) else {
-            return;
+        let by_case = cells.iter().any(|cell| cell.0 == table.row);
+        let cases = match by_case {
+            true => self.rows_of(table, cell(table.row), line),
+            false => self.swept_to(cells, line),
         };
+        let Some(cases) = cases else { return };
         let mut keys = Vec::new();
         for (key, words) in table.keys {
             if !words.contains(&cell(key)) {
@@ -350,6 +254,42 @@ impl Sheet<'_> {
         self.add(
             message,
             format!("its cases are {}", alternatives(&names).replace(" or ", " and ")),
+        );
+        None
+    }
+
+    /// Whether tables have a column of this name for a swept key.
+    fn is_swept(&self, column: &str) -> bool {
+        let mut swept = self.drafts.iter().flat_map(|draft| &draft.swept);
+        swept.any(|swept| swept.column() == column)
+    }
+
+    /// The cases whose swept keys have the values of a row.
+    fn swept_to(&self, cells: &[(&str, &str)], line: u64) -> Option<Vec<&str>> {
+        let wanted = || cells.iter().filter(|(column, _)| self.is_swept(column));
+        let has = |draft: &&Draft| {
+            wanted().all(|(column, text)| {
+                let mut swept = draft.swept.iter();
+                swept.any(|swept| swept.column() == *column && swept.is(text))
+            })
+        };
+        let cases: Vec<&str> = self
+            .drafts
+            .iter()
+            .filter(has)
+            .map(|draft| draft.name.as_str())
+            .collect();
+        if !cases.is_empty() {
+            return Some(cases);
+        }
+        let values: Vec<String> = wanted().map(|(column, text)| format!("{column} {text}")).collect();
+        self.add(
+            format!(
+                "{}, line {line}: the sweep makes no case of {}",
+                self.file,
+                values.join(", ")
+            ),
+            "write values that the sweep has, or leave the row out",
         );
         None
     }

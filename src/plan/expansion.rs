@@ -1,5 +1,6 @@
 //! Base, cases and sweep multiplied out.
 
+use super::swept::Swept;
 use super::{name, sweep};
 use crate::study::{CaseFile, Finding, Findings, Given, Overlay, Place, StudyFile};
 
@@ -11,6 +12,7 @@ pub struct Draft {
     /// Where its name comes from.
     pub place: Place,
     pub values: Given<CaseFile>,
+    pub swept: Vec<Swept>,
 }
 
 /// Name of the only case of a study that names none.
@@ -62,6 +64,7 @@ fn varied(draft: &Draft, point: &sweep::Point, named: bool) -> Draft {
         origin: draft.origin.clone(),
         place: point.place,
         values,
+        swept: draft.swept.iter().chain(&point.swept).cloned().collect(),
     }
 }
 
@@ -73,6 +76,7 @@ fn starts(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
             origin: ONLY.into(),
             place: Place::default(),
             values: content.base.clone(),
+            swept: Vec::new(),
         }],
         Given::Wrong(_) => Vec::new(),
         Given::Right(cases, place) => {
@@ -88,6 +92,7 @@ fn starts(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
                     origin: case.text.clone(),
                     place: case.place,
                     values,
+                    swept: Vec::new(),
                 }
             };
             cases.0.iter().map(draft).collect()

@@ -1,5 +1,6 @@
 //! The sweep of a study as axes: each a list of points, each point a change laid over a case.
 
+use super::swept::{self, Swept, SweptValue};
 use super::{label, range};
 use crate::study::{CaseFile, Finding, Findings, Given, Name, Node, Place, Sweep, Value, read_tree};
 
@@ -13,6 +14,7 @@ pub struct Point {
     pub name: String,
     pub place: Place,
     pub changes: Vec<Given<CaseFile>>,
+    pub swept: Vec<Swept>,
 }
 
 /// One path with its values, before they are read as a change of a case.
@@ -42,7 +44,10 @@ pub fn axes(sweep: &Sweep, findings: &Findings) -> Vec<Axis> {
             path.replace('.', "-")
         }
     };
-    groups.iter().map(|group| axis(group, &short, findings)).collect()
+    let numbered = groups.iter().enumerate();
+    numbered
+        .map(|(number, group)| axis(number, group, &short, findings))
+        .collect()
 }
 
 fn last_word(path: &str) -> &str {
@@ -142,9 +147,10 @@ fn swept_below(keys: &[(Node, Node)]) -> String {
     }
 }
 
-fn axis(group: &[Path], short: &dyn Fn(&str) -> String, findings: &Findings) -> Axis {
+fn axis(number: usize, group: &[Path], short: &dyn Fn(&str) -> String, findings: &Findings) -> Axis {
     let length = group.first().map_or(0, |path| path.values.len());
     let labels: Vec<Vec<String>> = group.iter().map(|path| label::all(&path.values)).collect();
+    let measured: Vec<Vec<SweptValue>> = group.iter().map(|path| swept::values(&path.values)).collect();
     let point = |index: usize| {
         let parts: Vec<String> = group
             .iter()
@@ -159,6 +165,15 @@ fn axis(group: &[Path], short: &dyn Fn(&str) -> String, findings: &Findings) -> 
             name: parts.join("-"),
             place: group[0].values[index].place,
             changes,
+            swept: group
+                .iter()
+                .zip(&measured)
+                .map(|(path, values)| Swept {
+                    path: path.name.to_owned(),
+                    axis: number,
+                    value: values[index].clone(),
+                })
+                .collect(),
         }
     };
     Axis {

@@ -172,7 +172,7 @@ fn identity_is_of_the_values_and_not_of_the_text() {
     assert_eq!(
         only_id(&format!(
             "# a comment\n{}",
-            base().replace("{element: 10}", "{element: 10} # atoms an edge")
+            base().replace("{element: 10}", "{element: 10} # atoms per edge")
         )),
         id
     );

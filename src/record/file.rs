@@ -8,6 +8,8 @@ use std::path::Path;
 use hdf5::File;
 use hdf5::file::FileBuilder;
 
+use crate::durable;
+
 /// A new file whose first `header` bytes HDF5 leaves alone (0, or a power of two from 512 on).
 ///
 /// It carries no time stamps, so that equal content gives equal bytes.
@@ -17,7 +19,10 @@ pub(super) fn create(path: &Path, header: u64) -> hdf5::Result<File> {
         .create(path)
 }
 
+/// Opens a file that is there.
 pub(super) fn open(path: &Path) -> hdf5::Result<File> {
+    // HDF5 waits for the other end of a pipe.
+    durable::open(path).map_err(|error| hdf5::Error::from(error.to_string()))?;
     unlocked().open(path)
 }
 

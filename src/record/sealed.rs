@@ -4,13 +4,14 @@
 //! HDF5 program opens the file as it is. The checksum is verified before HDF5 sees a byte: a damaged file never
 //! reaches the library.
 
-use std::fs::{File, OpenOptions};
+use std::fs::OpenOptions;
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use hdf5::Group;
 
 use super::{RecordError, aside, file};
+use crate::durable;
 
 /// Length of the header, bytes; the smallest user block of HDF5.
 const HEADER: usize = 512;
@@ -37,7 +38,7 @@ pub(super) fn write(path: &Path, seal: Seal, fill: impl FnOnce(&Group) -> hdf5::
 /// Opens a file that `write` made, once its seal is verified.
 pub(super) fn open(path: &Path, seal: Seal) -> Result<hdf5::File, RecordError> {
     let reading = |cause| RecordError::reading(path, &cause);
-    let mut file = File::open(path).map_err(reading)?;
+    let mut file = durable::open(path).map_err(reading)?;
     let mut header = Vec::with_capacity(HEADER);
     (&mut file)
         .take(HEADER as u64)

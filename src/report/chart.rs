@@ -2,6 +2,7 @@
 
 mod labels;
 mod legend;
+mod ranges;
 pub mod ranks;
 pub mod scatter;
 
@@ -13,8 +14,10 @@ use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::{FontStyle, register_font};
 
+use super::sweep::Key;
 use super::{ReportError, numbers, palette};
 use legend::Legend;
+use ranges::ranges;
 use ranks::OverRanks;
 use scatter::Scatter;
 
@@ -23,15 +26,15 @@ const WIDTH: u32 = 600;
 const HEIGHT: u32 = 400;
 const FINE: i32 = 4;
 
+/// nm in a millimetre.
+const NM_IN_A_MM: f64 = 1e6;
+
 const TEXT: i32 = 16;
 const INK: RGBColor = RGBColor(34, 34, 34);
 const FAINT: RGBColor = RGBColor(222, 222, 222);
 
 /// Points of a curve that a page can show; more are thinned out so that every peak stays.
 const MOST_POINTS: usize = 800;
-
-/// Share of the x axis that may be empty on the left.
-const LATE: f64 = 0.4;
 
 /// How much of what is behind the band of an uncertainty it hides.
 const SPREAD_OPACITY: f64 = 0.2;
@@ -64,6 +67,7 @@ pub enum Content {
 }
 
 /// One curve; a point without a finite y is a gap.
+#[derive(Default)]
 pub struct Curve {
     pub label: String,
     /// Chooses colour, dashes and marker; the same case has the same one in all charts.
@@ -71,6 +75,10 @@ pub struct Curve {
     pub points: Vec<(f64, f64)>,
     /// Uncertainty of y to either side, a point; empty where none is shown.
     pub spread: Vec<f64>,
+    /// Each point is a measurement of its own, with a marker and a bar.
+    pub dots: bool,
+    /// What its colour and dashes stand for, where they stand for something.
+    pub key: Option<Key>,
 }
 
 /// A chart as a file of its own and as part of a page.
@@ -80,7 +88,8 @@ pub struct Drawing {
 }
 
 impl Chart {
-    pub fn draw(&self) -> Result<Drawing, ReportError> {
+    /// `width` is that of the file, nm.
+    pub fn draw(&self, width: Option<f64>) -> Result<Drawing, ReportError> {
         let failed = |error: &dyn Display| ReportError::Figure {
             figure: self.id.clone(),
             reason: error.to_string(),
@@ -105,11 +114,11 @@ impl Chart {
         }
         let start = svg.find('\n').ok_or_else(|| failed(&"the drawing is empty"))?;
         let end = svg.rfind("</svg>").ok_or_else(|| failed(&"the drawing has no end"))?;
-        Ok(self.wrap(&svg[start + 1..end], size))
+        Ok(self.wrap(&svg[start + 1..end], size, width))
     }
 
     /// Gives the drawing a name and a description for those who cannot see it.
-    fn wrap(&self, body: &str, (wide, high): (i32, i32)) -> Drawing {
+    fn wrap(&self, body: &str, (wide, high): (i32, i32), width: Option<f64>) -> Drawing {
         let escape = |text: &str| {
             text.replace('&', "&amp;")
                 .replace('<', "&lt;")
@@ -117,16 +126,25 @@ impl Chart {
                 .replace('"', "&quot;")
         };
         let (id, title, about) = (&self.id, escape(&self.title), escape(&self.describe()));
-        let height = high / FINE;
-        let head = format!(
-            "width=\"{WIDTH}\" height=\"{height}\" viewBox=\"0 0 {wide} {high}\" role=\"img\" \
+        let in_pixels = format!("width=\"{WIDTH}\" height=\"{}\"", high / FINE);
+        let in_millimetres = |width: f64| {
+            let height = width * f64::from(high) / f64::from(wide);
+            format!(
+                "width=\"{:.2}mm\" height=\"{:.2}mm\"",
+                width / NM_IN_A_MM,
+                height / NM_IN_A_MM
+            )
+        };
+        let on_paper = width.map_or_else(|| in_pixels.clone(), in_millimetres);
+        let rest = format!(
+            "viewBox=\"0 0 {wide} {high}\" role=\"img\" \
              aria-labelledby=\"{id}-title {id}-about\">\n\
              <title id=\"{id}-title\">{title}</title>\n<desc id=\"{id}-about\">{about}</desc>\n\
              <g aria-hidden=\"true\">\n{body}</g>\n</svg>\n"
         );
         Drawing {
-            standalone: format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {head}"),
-            inline: format!("<svg {head}"),
+            standalone: format!("<svg xmlns=\"http://www.w3.org/2000/svg\" {on_paper} {rest}"),
+            inline: format!("<svg {in_pixels} {rest}"),
         }
     }
 
@@ -208,33 +226,6 @@ fn framed<'a, DB: DrawingBackend>(root: &'a DrawingArea<DB, Shift>, above: i32) 
     chart
 }
 
-/// What the axes span: the data, zero, and a little more above and below.
-fn ranges(curves: &[Curve]) -> (std::ops::Range<f64>, std::ops::Range<f64>) {
-    let points = || {
-        curves
-            .iter()
-            .flat_map(|curve| &curve.points)
-            .filter(|point| point.1.is_finite())
-    };
-    let span = |values: &mut dyn Iterator<Item = f64>| {
-        values.fold((0.0_f64, 0.0_f64), |(low, high), value| {
-            (low.min(value), high.max(value))
-        })
-    };
-    let (_, right) = span(&mut points().map(|point| point.0));
-    // Curves that begin late are shown from where they begin.
-    let left = points().map(|point| point.0).fold(right, f64::min);
-    let left = if left > LATE * right {
-        left - 0.1 * (right - left)
-    } else {
-        left.min(0.0)
-    };
-    let (low, high) = span(&mut points().map(|point| point.1));
-    let right = if right > left { right } else { left + 1.0 };
-    let room = if high > low { 0.04 * (high - low) } else { 1.0 };
-    (left..right, if low < 0.0 { low - room } else { 0.0 }..high + room)
-}
-
 type Axes<'a, DB> = ChartContext<'a, DB, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
 
 impl Curve {
@@ -246,6 +237,19 @@ impl Curve {
     /// A pale band as wide as the uncertainty.
     fn draw_spread<DB: DrawingBackend>(&self, chart: &mut Axes<DB>) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
         let bars: Vec<_> = self.points.iter().zip(&self.spread).collect();
+        if self.dots {
+            let bars = bars
+                .into_iter()
+                .filter(|(point, spread)| (point.1 + **spread).is_finite());
+            let bar = |(point, spread): (&(f64, f64), &f64)| {
+                PathElement::new(
+                    [(point.0, point.1 - spread), (point.0, point.1 + spread)],
+                    self.stroke(),
+                )
+            };
+            chart.draw_series(bars.map(bar))?;
+            return Ok(());
+        }
         let pieces = bars.split(|(point, spread)| !(point.1 + **spread).is_finite());
         for piece in pieces.filter(|piece| piece.len() > 1) {
             let side = |sign: f64| {
@@ -280,7 +284,9 @@ impl Curve {
         let mut next = start + (self.style % 4 + 1) as i32 * MARKER_GAP / 5;
         let mut marks = Vec::new();
         for place in seen.map(|point| chart.backend_coord(point)) {
-            if place.0 >= next {
+            if self.dots {
+                marks.push(place);
+            } else if place.0 >= next {
                 marks.push(place);
                 next += MARKER_GAP * ((place.0 - next) / MARKER_GAP + 1);
             }

@@ -1,10 +1,11 @@
 //! The line charts of a report.
 
 mod arrivals;
+mod sweep;
 
 use super::Analysed;
 use super::chart::{Chart, Content, Curve};
-use super::numbers;
+use super::sweep::{Look, looks};
 use super::tables::speed_against_error;
 use super::units::{GIGAPASCAL, PERCENT};
 use crate::analysis::series::Probe;
@@ -13,7 +14,8 @@ use crate::plan::Comparison;
 
 /// All charts that have something to show.
 pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
-    let mut charts = speed_against_error::charts(cases, comparisons);
+    let mut charts = sweep::charts(cases, comparisons);
+    charts.extend(speed_against_error::charts(cases, comparisons));
     charts.extend([
         stress_strain(cases),
         temperature(cases),
@@ -23,7 +25,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
         traction(cases),
         imbalance(cases),
     ]);
-    charts.extend(cases.iter().enumerate().map(|(index, case)| energies(index, case)));
+    charts.extend(cases.iter().map(energies));
     charts.extend(arrivals::charts(cases));
     charts.retain_mut(|chart| match &mut chart.content {
         Content::Curves(curves) => {
@@ -48,21 +50,23 @@ pub fn is_of_a_report(name: &str) -> bool {
     ];
     let id = name.strip_suffix(".svg").unwrap_or_default();
     COMMON.contains(&id)
+        || id.starts_with(sweep::START)
         || id.starts_with("speed-against-error-")
         || id.starts_with("scaling-")
-        || id.strip_prefix("arrivals-").is_some_and(numbers::is_index)
-        || id.strip_prefix("energy-").is_some_and(numbers::is_index)
+        || id.starts_with("arrivals-")
+        || id.starts_with("energy-")
 }
 
-/// One curve a case.
+/// One curve per case: by colour and dashes of what a sweep varies.
 fn curves(cases: &[Analysed], points: impl Fn(&Analysed) -> Vec<(f64, f64)>) -> Vec<Curve> {
-    let curve = |(style, case)| Curve {
-        label: Analysed::name(case).to_owned(),
-        style,
+    let curve = |(case, look): (&Analysed, Look)| Curve {
+        label: case.name().to_owned(),
+        style: look.style,
         points: points(case),
-        spread: Vec::new(),
+        key: look.key,
+        ..Curve::default()
     };
-    cases.iter().enumerate().map(curve).collect()
+    cases.iter().zip(looks(cases)).map(curve).collect()
 }
 
 /// Points of a quantity over the strain in percent.
@@ -81,10 +85,18 @@ fn stress_strain(cases: &[Analysed]) -> Chart {
         detail: false,
         table: "stress_strain",
         title: "Average stress over strain".to_owned(),
-        caption: "Average virial stress across the crack plane of everything between the grips, over the nominal \
-                  strain. Curves that lie on each other below initiation show that the coarser mesh is as stiff as \
-                  the finer; the drop is the crack."
-            .to_owned(),
+        caption: match cases.iter().any(Analysed::has_crack) {
+            true => {
+                "Average virial stress across the crack plane of everything between the grips, over the nominal strain. \
+                 Curves that lie on each other below initiation show that the coarser mesh is as stiff as the finer; the \
+                 drop is the crack."
+            }
+            false => {
+                "Average virial stress, in the direction of the pull, of everything between the grips, over the nominal \
+                 strain. Curves that lie on each other show that the coarser mesh is as stiff as the finer."
+            }
+        }
+        .to_owned(),
         x: "nominal strain (%)".to_owned(),
         y: "average σyy (GPa)".to_owned(),
         content: Content::Curves(curves(cases, |case| over_strain(case, |row| row.sigma_yy * GIGAPASCAL))),
@@ -225,7 +237,7 @@ fn balance(row: &Probe) -> f64 {
     row.kinetic + row.potential - row.work - row.cutoff_release
 }
 
-fn energies(index: usize, case: &Analysed) -> Chart {
+fn energies(case: &Analysed) -> Chart {
     let probes = &case.result.series.probes;
     let start = probes.first().copied().unwrap_or_default();
     let largest = probes
@@ -240,17 +252,20 @@ fn energies(index: usize, case: &Analysed) -> Chart {
         label: label.to_owned(),
         style,
         points: over_strain(case, |row| of(row) / size),
-        spread: Vec::new(),
+        ..Curve::default()
     };
     Chart {
-        id: format!("energy-{index}"),
+        id: format!("energy-{}", case.file_part()),
         detail: true,
         table: "stress_strain",
         title: format!("Energy ledger of {}", case.name()),
         caption: format!(
-            "Where the work of the grips goes in {}: strain energy until the crack starts, then surfaces and motion. \
-             Kinetic energy is counted from the start.",
-            case.name()
+            "Where the work of the grips goes in {}: strain energy{}. Kinetic energy is counted from the start.",
+            case.name(),
+            match case.has_crack() {
+                true => " until the crack starts, then surfaces and motion",
+                false => " and motion",
+            }
         ),
         x: "nominal strain (%)".to_owned(),
         y: format!("energy ({unit})"),

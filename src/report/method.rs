@@ -1,32 +1,92 @@
-//! The rules behind the numbers, in words, with the values in force.
+//! The rules behind the numbers, in words, with the values in force. Those of a table stand beside its columns.
 
 use super::numbers::significant;
+use super::tables::{first_branch, k_ic, wave_arrival};
+use super::units::{GIGAPASCAL, MEGAPASCAL_ROOT_METRE, METRE_PER_SECOND};
 use super::{Analysed, resolution};
 use crate::analysis::comparison::FROM_SHARE;
 use crate::analysis::crack::YARDSTICK_SPACINGS;
-use crate::analysis::crack::leaving::LEAVES_PLANE_SPACINGS;
-use crate::analysis::crack::{SPUR_ELEMENTS, SPUR_SPACINGS};
 use crate::analysis::initiation::{ADVANCE_SPACINGS, ARREST_SPEED, CREEP_GROWTH, STAND_GROWTH, STAND_GROWTH_AT_NOTCH};
-use crate::analysis::series::{CrackFrom, RINGS, Setting};
+use crate::analysis::series::{CrackFrom, Setting};
 use crate::analysis::speed::{WINDOW_ADVANCES, WINDOW_SPEED};
-use crate::analysis::stress_intensity::{
-    FROM_ELEMENTS, FROM_SPACINGS, LEAST_GRIFFITH_SHARE, MOST_CORRECTION, MOST_ERROR_SHARE, MOST_RING_SHARE,
-    RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS, TO_SHARE,
-};
-use crate::analysis::waves::{AFTER_SHARE, BEFORE_SHARE, LEAST_RIVALS, LEAST_SCATTERS, WINDOW};
 
 /// A term and what it means here.
 pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
+    let mut notes = Vec::new();
+    let has_crack = cases.iter().any(Analysed::has_crack);
+    if has_crack {
+        notes.extend(of_cracks(cases));
+    }
+    notes.extend(of_all(has_crack));
+    notes.extend(constants(cases));
+    notes.extend(resolution::notes(cases));
+    let treatment = |case: &Analysed| {
+        let about = case
+            .result
+            .choices
+            .iter()
+            .filter(|choice| choice.0.contains("potential"));
+        about
+            .map(|(key, value)| format!("{key} = {value}"))
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let mut treatments: Vec<String> = cases.iter().map(treatment).filter(|text| !text.is_empty()).collect();
+    treatments.dedup();
+    notes.extend(treatments.into_iter().map(|text| ("Potential", text)));
+    notes
+}
+
+/// The constants of each material among the cases.
+fn constants(cases: &[Analysed]) -> Vec<(&'static str, String)> {
+    let mut told: Vec<String> = Vec::new();
+    for setting in cases.iter().filter_map(|case| case.result.setting.as_ref()) {
+        let three = |value: f64| significant(value, 3);
+        let text = format!(
+            "r0 = {} nm, E = {} GPa and ν = {} in the plane, c_L = {} m/s, c_T = {} m/s, c_R = {} m/s, 2γ = {} J/m², K of \
+             Griffith = {} MPa √m.",
+            significant(setting.spacing, 4),
+            three(setting.young_modulus / setting.thickness * GIGAPASCAL),
+            three(setting.poisson_ratio),
+            three(setting.longitudinal_speed * METRE_PER_SECOND),
+            three(setting.transverse_speed * METRE_PER_SECOND),
+            three(setting.rayleigh_speed * METRE_PER_SECOND),
+            // 1 GPa nm is 1 J/m².
+            three(setting.fracture_energy / setting.thickness * GIGAPASCAL),
+            three((setting.young_modulus * setting.fracture_energy).sqrt() / setting.thickness * MEGAPASCAL_ROOT_METRE)
+        );
+        if !told.contains(&text) {
+            told.push(text);
+        }
+    }
+    told.into_iter().map(|text| ("Material", text)).collect()
+}
+
+/// What belongs to a crack: its place, its course, K and the waves that come back to it.
+fn of_cracks(cases: &[Analysed]) -> Vec<(&'static str, String)> {
+    let mut notes = vec![of_the_tip()];
+    notes.extend(sides(cases));
+    notes.extend(of_the_course());
+    notes.extend(first_branch::method());
+    notes.extend(k_ic::method());
+    notes.extend(wave_arrival::method());
+    notes
+}
+
+fn of_the_tip() -> (&'static str, String) {
+    (
+        "Crack",
+        "The broken nearest-neighbour bonds that hang together with the notch; fragments and holes away from it do \
+         not count. The tip is its foremost point, in the reference configuration, from the left edge and from \
+         the crack plane. A bond that closes far behind the tip is a contact of the faces and does not end the \
+         crack."
+            .to_owned(),
+    )
+}
+
+fn of_the_course() -> [(&'static str, String); 3] {
     let percent = |share: f64| significant(share * 100.0, 3);
-    let mut notes = vec![
-        (
-            "Crack",
-            "The broken nearest-neighbour bonds that hang together with the notch; fragments and holes away from it do \
-             not count. The tip is its foremost point, in the reference configuration, from the left edge and from \
-             the crack plane. A bond that closes far behind the tip is a contact of the faces and does not end the \
-             crack."
-                .to_owned(),
-        ),
+    [
         (
             "Arc length",
             format!(
@@ -48,14 +108,6 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
             ),
         ),
         (
-            "Leaves the plane",
-            format!(
-                "When a broken path from the notch first reaches {LEAVES_PLANE_SPACINGS} spacings from the crack plane, and where; beside \
-                 it when the first bond of that path off the plane broke. A crack that joins one that has opened ahead of it \
-                 is told in the table joins: that is neither a speed nor a branch."
-            ),
-        ),
-        (
             "Crack speed",
             format!(
                 "Slope of the arc length over time by least squares. The window is the time in which a crack at \
@@ -64,94 +116,24 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                  Rayleigh speed of this lattice and cutoff."
             ),
         ),
-        (
-            "K near the tip",
-            format!(
-                "Least-squares fit of σyy √(2πr) = K (1 + c r) at the last probe before initiation, from r = \
-                 {FROM_SPACINGS} spacings (at least {FROM_ELEMENTS} element edges) to {} % of the crack length, the \
-                 ligament or the height, whichever is smallest; ± is the standard error of the fit alone. Refused where K is not positive, where \
-                 that error is above {} % of K, and where c r is above {MOST_CORRECTION} at the end of the range.",
-                percent(TO_SHARE),
-                percent(MOST_ERROR_SHARE)
-            ),
-        ),
-        (
-            "K of the J-integral",
-            format!(
-                "√(EJ) at the same probe, J being the energy that the field around the tip would give for its advance: \
-                 the domain integral with finite strain and inertia, in {RINGS} rings side by side that reach to at most \
-                 {RING_SPACINGS} spacings (at least {RING_ELEMENTS} element edges), and to at most {} % of the way to the nearest \
-                 edge or grip. The value is the mean of the rings; they agree to half of the range between \
-                 them, which is no uncertainty of K. Refused where they agree to no better than {} %, and below {} % of Griffith's K: \
-                 a crack that sets out gets what its surfaces cost. Waves that pass the tip let J itself swing by some percent \
-                 within picoseconds, in all rings alike. Absent where there is no room for rings.",
-                percent(RING_CLEAR_SHARE),
-                percent(MOST_RING_SHARE),
-                percent(LEAST_GRIFFITH_SHARE)
-            ),
-        ),
-        (
-            "K of Griffith",
-            "√(2γE) over the thickness, with the energy that the potential and its treatment at the cutoff need to \
-             part a close-packed row, and the two-dimensional Young's modulus."
-                .to_owned(),
-        ),
-        (
-            "K of the energy balance",
-            "√(E C H / 2) times the strain at the same probe, C being the stiffness of the uncracked slab and H its height: what \
-             the slab holds far ahead of a long crack and gives up for its advance. Exact where crack and ligament are longer \
-             than the height; a short crack has less."
-                .to_owned(),
-        ),
-        (
-            "K between grips",
-            "F E ε √(πa) at the same probe, with the factor F of an edge crack between grips that move, from the static release \
-             of energy of the lattice (`make verify`, single edge), linear between the geometries computed. Waves that the \
-             loading itself has made are not in it."
-                .to_owned(),
-        ),
-        (
-            "K under stress",
-            "F σ √(πa) with the handbook factor of an edge crack in a long strip under uniform stress (Tada), put to the stress on \
-             the grips at the same probe: what one gets who takes moving grips for a stress. Up to several times too large, \
-             because grips that stand still take load off a crack that is long for their distance."
-                .to_owned(),
-        ),
-        (
-            "Branches",
-            format!(
-                "Side paths of at least {SPUR_SPACINGS} spacings (and {SPUR_ELEMENTS} element edges) that end at least \
-                 half of that away from the others. The angle is that of their first stretch, from the x axis. \
-                 Arrested means slower than {ARREST_SPEED} c_R over the last such length."
-            ),
-        ),
+    ]
+}
+
+fn of_all(has_crack: bool) -> [(&'static str, String); 2] {
+    [
         (
             "Comparison",
-            format!(
-                "Each case is measured against the one with the most nodes on the same specimen. Stresses are compared \
-                 at equal strain, from {} % of the earliest initiation strain among these cases up to it, as the \
-                 largest difference; speeds as the mean difference while both cracks run, without sign.",
-                percent(FROM_SHARE)
-            ),
-        ),
-        (
-            "Waves",
-            format!(
-                "Arrivals at the tip, counted from initiation. Predicted: straight paths at the speeds of long waves, to a \
-                 tip at rest and (at the running tip) to where it is by then. Measured: wave gauges halfway to the grips and \
-                 halfway along the notch to its edge record the mean velocity v and stress σ of a patch; σ ± ρcv is what a plane wave brings back towards the tip, and is \
-                 untouched by what leaves it. Where it bends most, where its mean over the next {} % of the predicted \
-                 time lies farthest off its line over the {} % before, the wave is at the gauge, and the way from there \
-                 is added. It is known to a probe, and comes late by up to half of the time in which the front rises. \
-                 Absent where this bend is not {LEAST_SCATTERS} times the scatter before initiation and {LEAST_RIVALS} \
-                 times any before it, or \
-                 comes {} % before the prediction or {} % after it; behind cracks longer than half of the height, where other waves \
-                 come first; and for Rayleigh waves, which have no plane front.",
-                percent(AFTER_SHARE),
-                percent(BEFORE_SHARE),
-                percent(AFTER_SHARE),
-                percent(WINDOW)
-            ),
+            match has_crack {
+                true => format!(
+                    "Each case is measured against the one with the most nodes on the same specimen. Stresses are compared at \
+                     equal strain, from {} % of the earliest initiation strain among these cases up to it, as the largest \
+                     difference; speeds as the mean difference while both cracks run, without sign.",
+                    significant(100.0 * FROM_SHARE, 3)
+                ),
+                false => "Each case is measured against the one with the most nodes on the same specimen. Stresses are compared \
+                          at equal strain, as the largest difference."
+                    .to_owned(),
+            },
         ),
         (
             "Energy error",
@@ -159,24 +141,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
              the energy jumps where a pair crosses a truncated cutoff; it is zero where the potential is smooth."
                 .to_owned(),
         ),
-    ];
-    notes.splice(1..1, sides(cases));
-    notes.extend(resolution::notes(cases));
-    let treatment = |case: &Analysed| {
-        let about = case
-            .result
-            .choices
-            .iter()
-            .filter(|choice| choice.0.contains("potential"));
-        about
-            .map(|(key, value)| format!("{key} = {value}"))
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
-    let mut treatments: Vec<String> = cases.iter().map(treatment).filter(|text| !text.is_empty()).collect();
-    treatments.dedup();
-    notes.extend(treatments.into_iter().map(|text| ("Potential", text)));
-    notes
+    ]
 }
 
 /// What is to be known of cracks that do not come from the left.

@@ -27,11 +27,6 @@ pub fn count(value: u64) -> String {
     grouped(&value.to_string())
 }
 
-/// Whether a text is the number of a case.
-pub fn is_index(text: &str) -> bool {
-    !text.is_empty() && text.bytes().all(|digit| digit.is_ascii_digit())
-}
-
 /// A share in percent, with its sign where it is large enough to have one.
 pub fn signed_percent(share: f64) -> String {
     let percent = share * 100.0;
@@ -40,6 +35,17 @@ pub fn signed_percent(share: f64) -> String {
         size if size < 0.05 => "< 0.1 %".to_owned(),
         _ => minus(format!("{percent:+.1} %")),
     }
+}
+
+/// A text as it begins a sentence.
+pub fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(|letter| letter.to_uppercase().collect::<String>());
+    first.unwrap_or_default() + letters.as_str()
+}
+
+pub fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
 }
 
 /// The nearest number with so many significant decimal digits.

@@ -3,23 +3,24 @@
 use super::numbers::{ABSENT, count, signed_percent, significant};
 use super::tables::specimen::are_one_computation;
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
-use super::{Analysed, CaseResult, beware};
+use super::{Analysed, CaseResult, sweep};
 use crate::analysis::stress_intensity::{FromJ, NearTip};
-use crate::units::amounts::{bytes, duration};
-
-/// More cases than this are left to the table.
-const MOST_NAMED: usize = 4;
+use crate::plan::Swept;
+use crate::units::amounts::duration;
 
 /// So that a difference of just one probe counts as one, however it was rounded.
-const ROUNDING: f64 = 1.0 + 1e-6;
+pub const ROUNDING: f64 = 1.0 + 1e-6;
 
 /// No stress intensity is known to more decimals, MPa √m.
 const MOST_DECIMALS: i32 = 3;
 
-/// Factors below this are not worth a number.
-const ALIKE: f64 = 1.05;
+/// Stands where a case is measured against itself.
+const REFERENCE: &str = "reference";
 
-/// Rows that belong together; one cell a case.
+/// The group that tells what a sweep varies already.
+const DIFFERS: &str = "What differs";
+
+/// Rows that belong together; one cell per case.
 pub struct Group {
     pub title: &'static str,
     pub rows: Vec<Row>,
@@ -34,7 +35,7 @@ pub struct Row {
 pub fn groups(cases: &[Analysed]) -> Vec<Group> {
     let mut groups = vec![
         Group {
-            title: "What differs",
+            title: DIFFERS,
             rows: differing(&cases.iter().map(|case| case.result).collect::<Vec<_>>()),
         },
         Group {
@@ -54,105 +55,35 @@ pub fn groups(cases: &[Analysed]) -> Vec<Group> {
             rows: energies(cases),
         },
     ];
-    groups.retain(|group| group.rows.iter().any(|row| row.cells.iter().any(|cell| cell != ABSENT)));
+    let says_something = |row: &Row| row.cells.iter().any(|cell| cell != ABSENT && cell != REFERENCE);
+    for group in &mut groups {
+        group.rows.retain(says_something);
+    }
+    groups.retain(|group| !group.rows.is_empty());
     groups
 }
 
-/// `3 of 3 cases done.`
-pub fn done(cases: &[Analysed]) -> String {
-    let failed = cases.iter().filter(|case| case.result.failure.is_some()).count();
-    let done = cases.iter().filter(|case| case.result.manifest.state == "done").count();
-    let (all, cases) = (cases.len(), plural(cases.len()));
-    match failed {
-        0 => format!("{done} of {all} {cases} done."),
-        _ => format!("{done} of {all} {cases} done, {failed} failed."),
+/// The same where each group is a table of its own, which begins with what a sweep varies.
+pub fn tables(cases: &[Analysed]) -> Vec<Group> {
+    let mut groups = groups(cases);
+    for group in groups.iter_mut().filter(|group| group.title != DIFFERS) {
+        group
+            .rows
+            .splice(0..0, swept(&cases.iter().map(|case| case.result).collect::<Vec<_>>()));
     }
+    groups
 }
 
-/// `They took 24 min of a core in all, and 281 MB of memory at most.`
-fn effort(cases: &[Analysed]) -> Option<String> {
-    let seconds = cases.iter().filter_map(Analysed::core_seconds).reduce(|a, b| a + b);
-    let memory = cases.iter().filter_map(|case| case.result.manifest.peak_memory);
-    let most = memory.max_by(f64::total_cmp).map(|most| bytes(most as u64));
-    let memory = most.map_or(String::new(), |most| format!(", and {most} of memory at most"));
-    Some(format!("They took {} of a core in all{memory}.", duration(seconds?)))
-}
-
-/// Some sentences that answer: did it work, for what effort, when does the crack start, what does coarseness save and cost?
-pub fn verdict(cases: &[Analysed]) -> String {
-    let mut sentences = vec![done(cases)];
-    sentences.extend(beware::sentences(cases));
-    sentences.extend(effort(cases));
-    sentences.extend(cases.iter().enumerate().filter_map(|(index, reference)| {
-        // Each specimen has a case of its own that the others are measured against; one without a crack says nothing.
-        let has_crack = !reference.findings.tips.is_empty();
-        let mut sentence = start(reference).filter(|_| has_crack && reference.reference == Some(index))?;
-        let others = cases
-            .iter()
-            .enumerate()
-            .filter(|(other, case)| *other != index && case.reference == Some(index));
-        let others: Vec<String> = others.filter_map(|(_, case)| against(case, reference)).collect();
-        if others.len() <= MOST_NAMED {
-            others.iter().for_each(|other| sentence.push_str(&format!("; {other}")));
-        }
-        Some(format!("{sentence}."))
-    }));
-    sentences.join(" ")
-}
-
-/// `In atoms the crack starts at 1.79 % strain`, or that it does not.
-fn start(case: &Analysed) -> Option<String> {
-    let percent = |strain: f64| significant(strain * PERCENT, 3);
-    Some(match case.findings.initiation {
-        Some(start) => format!(
-            "In {} the crack starts at {} % strain",
-            case.name(),
-            percent(start.strain)
-        ),
-        None => {
-            let end = case.result.series.probes.last()?.strain;
-            format!(
-                "In {} the crack does not start up to {} % strain",
-                case.name(),
-                percent(end)
-            )
-        }
-    })
-}
-
-fn plural(count: usize) -> &'static str {
-    if count == 1 { "case" } else { "cases" }
-}
-
-/// `in coarse 39.3 % later, with 18 times fewer nodes and 22 times faster`
-fn against(case: &Analysed, reference: &Analysed) -> Option<String> {
-    let name = case.name();
-    if are_one_computation(case.result, reference.result) {
-        return Some(format!("{name} is the same computation under another name"));
-    }
-    let mut text = match case.difference.initiation_strain {
-        Some(share) if share.abs() <= ROUNDING * between_probes(case, reference)? => {
-            format!("in {name} at the same strain, within a probe")
-        }
-        Some(share) if share < 0.0 => format!("in {name} {:.1} % earlier", -share * PERCENT),
-        Some(share) => format!("in {name} {:.1} % later", share * PERCENT),
-        None => start(case)?.replacen("In", "in", 1).replacen("the crack", "it", 1),
+/// What a sweep has set, as numbers with their unit at the head.
+fn swept(cases: &[&CaseResult]) -> Vec<Row> {
+    let first = cases.iter().find(|case| !case.swept.is_empty());
+    let keys = first.into_iter().flat_map(|case| case.swept.iter().enumerate());
+    let cell = |case: &&CaseResult, index: usize| case.swept.get(index).map_or_else(|| ABSENT.to_owned(), sweep::shown);
+    let row = |(index, key): (usize, &Swept)| Row {
+        label: key.heading(),
+        cells: cases.iter().map(|case| cell(case, index)).collect(),
     };
-    let nodes = |case: &Analysed| case.result.setting.as_ref().map(|setting| setting.nodes as f64);
-    let times = |of: &dyn Fn(&Analysed) -> Option<f64>| Some(of(reference)? / of(case)?);
-    if let Some((nodes, time)) = times(&nodes).zip(times(&|case| case.core_seconds_a_picosecond())) {
-        let nodes = match nodes {
-            ..ALIKE => "as many nodes".to_owned(),
-            fewer => format!("{} times fewer nodes", significant(fewer, 2)),
-        };
-        let pace = match time {
-            ALIKE.. => format!("{} times faster", significant(time, 2)),
-            _ if time * ALIKE <= 1.0 => format!("{} times slower", significant(1.0 / time, 2)),
-            _ => "as fast".to_owned(),
-        };
-        text.push_str(&format!(", with {nodes} and {pace}"));
-    }
-    Some(text)
+    keys.map(row).collect()
 }
 
 /// Strain between the probes at which two cracks start, over the strain of the second: what cannot be told apart.
@@ -201,8 +132,19 @@ pub fn differing(cases: &[&CaseResult]) -> Vec<Row> {
         let first = cells.next();
         cells.any(|cell| Some(cell) != first)
     };
-    let whole = keys.iter().filter(|key| !is_part(key));
-    whole.map(|key| row(key)).filter(varies).collect()
+    let mut rows = swept(cases);
+    let is_swept = |key: &str| {
+        let paths = cases
+            .iter()
+            .flat_map(|case| &case.swept)
+            .map(|swept| swept.path.as_str());
+        paths
+            .into_iter()
+            .any(|path| path == key || part_of(key, path).is_some())
+    };
+    let whole = keys.iter().filter(|key| !is_part(key) && !is_swept(key));
+    rows.extend(whole.map(|key| row(key)).filter(varies));
+    rows
 }
 
 /// A choice in words, that of its parts where it has some: `gauss 2`.
@@ -251,7 +193,7 @@ fn costs(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "memory (MB)", |case| {
             Some(significant(manifest(case).peak_memory? * 1e-6, 3))
         }),
-        row(cases, "million atom-steps a second", |case| {
+        row(cases, "million atom-steps per second", |case| {
             Some(significant(case.atom_steps_a_second()? / 1e6, 3))
         }),
     ]
@@ -315,7 +257,7 @@ fn with_error(value: f64, error: f64) -> String {
 fn distances(cases: &[Analysed]) -> Vec<Row> {
     let own = |case: &Analysed| case.reference.is_some_and(|index| std::ptr::eq(case, &cases[index]));
     let or_reference =
-        |case: &Analysed, text: Option<String>| if own(case) { Some("reference".to_owned()) } else { text };
+        |case: &Analysed, text: Option<String>| if own(case) { Some(REFERENCE.to_owned()) } else { text };
     let later = |case: &Analysed| {
         let share = case.difference.initiation_strain?;
         let gap = between_probes(case, &cases[case.reference?])?;
@@ -347,7 +289,7 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "K at initiation, J-integral", |case| {
             or_reference(case, case.difference.stress_intensity.map(signed_percent))
         }),
-        row(cases, "times fewer core-seconds a simulated ps", |case| {
+        row(cases, "times fewer core-seconds per simulated ps", |case| {
             or_reference(case, times_faster(case, cases))
         }),
     ]

@@ -5,8 +5,8 @@ use super::overview::{self, Group, Row};
 use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::table::Table;
-use super::tables::{comparison, specimen};
-use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling};
+use super::tables::{cheapest, comparison, specimen, speed_against_error};
+use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling, verdict};
 use crate::plan::Comparison;
 use crate::units::amounts::duration;
 use minijinja::syntax::SyntaxConfig;
@@ -17,6 +17,9 @@ const SHOWN_ROWS: usize = 60;
 
 /// More cases than this stand one below the other in the comparison.
 const MOST_ABREAST: usize = 8;
+
+/// More pictures of one kind than this are a grid of small ones.
+const MOST_LARGE: usize = 3;
 
 /// What the page is made from.
 pub struct Page<'a> {
@@ -55,13 +58,15 @@ impl Page<'_> {
             name => &self.study.name,
             question => self.study.question.as_ref(),
             text => &self.study.text,
-            verdict => self.verdict(),
+            verdict => self.verdict().join(" "),
+            sentences => self.verdict(),
             names => list(self.cases, |case| case.name().into()),
             many => self.cases.len() > MOST_ABREAST,
-            groups => list(&overview::groups(self.cases), group),
+            groups => list(&self.groups(), group),
             specimens => list(&specimen::notes(self.cases), pair),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
             scaling => self.scaling.map(|found| self.scaling(found)),
+            economies => self.economies(),
             comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),
             panels => list(self.panels, panel),
             missing => self.study.others.iter().filter_map(|other| other.missing.clone()).collect::<Vec<String>>(),
@@ -78,10 +83,18 @@ impl Page<'_> {
 }
 
 impl Page<'_> {
-    fn verdict(&self) -> String {
+    /// Where there are many cases each group is a table of its own.
+    fn groups(&self) -> Vec<Group> {
+        match self.cases.len() > MOST_ABREAST {
+            true => overview::tables(self.cases),
+            false => overview::groups(self.cases),
+        }
+    }
+
+    fn verdict(&self) -> Vec<String> {
         match self.scaling.and_then(scaling::verdict) {
-            Some(gain) => format!("{} {gain}", overview::done(self.cases)),
-            None => overview::verdict(self.cases),
+            Some(gain) => vec![format!("{} {gain}", verdict::done(self.cases))],
+            None => verdict::verdict(self.cases),
         }
     }
 
@@ -89,6 +102,14 @@ impl Page<'_> {
     fn scaling(&self, found: &scaling::Findings) -> Value {
         let rows: Vec<Vec<String>> = found.rows.iter().map(scaling::cells).collect();
         context! { columns => scaling::HEADS, rows, notes => list(&scaling::notes(self.study, self.cases, found), pair) }
+    }
+
+    /// The cheapest case that is near enough, for each quantity; nothing where there are too few cases.
+    fn economies(&self) -> Option<Value> {
+        let rows = speed_against_error::rows(self.cases);
+        let (heads, lines) = cheapest::shown(&rows);
+        let advice = cheapest::recommendations(&rows);
+        (!lines.is_empty()).then(|| context! { advice, heads, rows => lines })
     }
 
     /// What comes from elsewhere beside what the cases say.
@@ -114,7 +135,7 @@ fn chart((chart, drawing): (&Chart, &Drawing)) -> Value {
 }
 
 fn gallery(gallery: &Gallery) -> Value {
-    context! { title => &gallery.title, lead => &gallery.lead, pictures => list(&gallery.pictures, picture) }
+    context! { title => &gallery.title, lead => &gallery.lead, small => gallery.pictures.len() > MOST_LARGE, pictures => list(&gallery.pictures, picture) }
 }
 
 fn picture(picture: &Picture) -> Value {
@@ -153,6 +174,18 @@ fn case(case: &Analysed) -> Value {
         resolved => &case.result.resolved,
         failure => failure.map(|failure| context! { reason => &failure.reason, log => &failure.log_tail }),
         run => list(&provenance(case), pair),
+        files => files(case),
+    }
+}
+
+/// The files of a published run that a person opens; they stand beside the page.
+fn files(case: &Analysed) -> Vec<&'static str> {
+    let mut files = vec!["case.yaml", "manifest.json", "log.txt", "series.h5"];
+    files.extend(case.result.film.as_ref().map(|_| "fields.vtkhdf"));
+    files.push("checkpoint.h5");
+    match case.result.manifest.state.as_str() {
+        "done" => files,
+        _ => Vec::new(),
     }
 }
 
@@ -172,7 +205,7 @@ fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
         ("commit", manifest.commit.clone()),
         ("host", manifest.host.clone()),
         ("ranks", manifest.ranks.map(|ranks| ranks.to_string())),
-        ("threads a rank", manifest.threads.map(|threads| threads.to_string())),
+        ("threads per rank", manifest.threads.map(|threads| threads.to_string())),
         ("started", manifest.started.clone()),
         ("ended", manifest.ended.clone()),
         ("wall time", manifest.wall_seconds.map(duration)),

@@ -61,7 +61,11 @@ pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> R
         galleries.push(self::gallery(title, &branching(cases), Shade::Speed, folder)?);
     }
     galleries.push(gallery(
-        "The broken slabs".to_owned(),
+        match cases.iter().any(Analysed::has_crack) {
+            true => "The broken slabs",
+            false => "The slabs at the end",
+        }
+        .to_owned(),
         &endings(cases),
         Shade::Stress,
         folder,
@@ -73,25 +77,21 @@ pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> R
 
 /// Whether a report may have drawn a file of this name.
 pub fn is_of_a_report(name: &str) -> bool {
-    let number = |start: &str| name.strip_prefix(start).and_then(|rest| rest.strip_suffix(".png"));
-    ["slab-", "stage-", "branch-", "path-"]
-        .iter()
-        .any(|start| number(start).is_some_and(numbers::is_index))
-        || name == animation::FILE
+    let kinds = ["slab-", "stage-", "branch-", "path-"];
+    kinds.iter().any(|kind| name.starts_with(kind)) && name.ends_with(".png") || name == animation::FILE
 }
 
-fn with_film<'a>(cases: &'a [Analysed<'a>]) -> impl Iterator<Item = (usize, &'a Analysed<'a>, &'a Film)> {
-    let films = cases.iter().enumerate();
-    films.filter_map(|(index, case)| Some((index, case, case.result.film.as_ref()?)))
+fn with_film<'a>(cases: &'a [Analysed<'a>]) -> impl Iterator<Item = (&'a Analysed<'a>, &'a Film)> {
+    cases.iter().filter_map(|case| Some((case, case.result.film.as_ref()?)))
 }
 
 fn endings<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
-    let ending = |(index, case, film): (usize, &'a Analysed<'a>, &'a Film)| {
+    let ending = |(case, film): (&'a Analysed<'a>, &'a Film)| {
         Some(Wanted {
             case,
             film,
             frame: film.moments().len().checked_sub(1)?,
-            file: format!("slab-{index}.png"),
+            file: format!("slab-{}.png", case.file_part()),
             title: case.name().to_owned(),
         })
     };
@@ -99,13 +99,13 @@ fn endings<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
 }
 
 fn branching<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
-    let fork = |(index, case, film): (usize, &'a Analysed<'a>, &'a Film)| {
+    let fork = |(case, film): (&'a Analysed<'a>, &'a Film)| {
         let branch = case.findings.first_branch()?;
         Some(Wanted {
             case,
             film,
             frame: film.nearest(branch.time, |(time, _)| time)?,
-            file: format!("branch-{index}.png"),
+            file: format!("branch-{}.png", case.file_part()),
             title: case.name().to_owned(),
         })
     };
@@ -114,19 +114,20 @@ fn branching<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
 
 /// The cases one after the other, each through all its strains.
 fn stage_frames<'a>(cases: &'a [Analysed<'a>], stages: &Stages) -> Vec<Wanted<'a>> {
-    let named = |name: &String| with_film(cases).find(|(_, case, _)| case.name() == name);
+    let named = |name: &String| with_film(cases).find(|(case, _)| case.name() == name);
     let shown = stages.cases.iter().filter_map(named);
-    let moments = shown.flat_map(|(_, case, film)| stages.strains.iter().map(move |strain| (case, film, *strain)));
-    let wanted = |(index, (case, film, strain)): (usize, (&'a Analysed<'a>, &'a Film, f64))| {
+    let moments = shown.flat_map(|(case, film)| stages.strains.iter().map(move |strain| (case, film, *strain)));
+    let percent = |strain: f64| numbers::significant(strain * PERCENT, 3);
+    let wanted = |(case, film, strain): (&'a Analysed<'a>, &'a Film, f64)| {
         Some(Wanted {
             case,
             film,
             frame: film.nearest(strain, |(_, strain)| strain)?,
-            file: format!("stage-{index}.png"),
-            title: format!("{} at {} %", case.name(), numbers::significant(strain * PERCENT, 3)),
+            file: format!("stage-{}-{}percent.png", case.file_part(), percent(strain)),
+            title: format!("{} at {} %", case.name(), percent(strain)),
         })
     };
-    moments.enumerate().filter_map(wanted).collect()
+    moments.filter_map(wanted).collect()
 }
 
 /// Draws pictures on one scale.
@@ -147,10 +148,16 @@ fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Res
         .collect::<Result<_, _>>()?;
     let end = numbers::tick(limit);
     let lead = match shade {
-        Shade::Stress => format!(
-            "Displacements to scale. Colour is the virial stress σyy across the crack plane, on the same scale in all \
-             pictures (beyond ±{end} GPa the end colours); white is empty space, grey are the grips."
-        ),
+        Shade::Stress => {
+            let direction = match wanted.iter().any(|picture| picture.case.has_crack()) {
+                true => "across the crack plane",
+                false => "in the direction of the pull",
+            };
+            format!(
+                "Displacements to scale. Colour is the virial stress σyy {direction}, on the same scale in all pictures (beyond \
+                 ±{end} GPa the end colours); white is empty space, grey are the grips."
+            )
+        }
         Shade::Speed => format!(
             "The pictures taken nearest to the moments at which the cracks first branch. Colour is the speed of the \
              particles, on the same scale in all pictures (beyond {end} m/s the end colour), so that waves show."

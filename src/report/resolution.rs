@@ -21,7 +21,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                  through the edges at 60° and the edge in the crack plane. An edge in the plane has two families of bonds to \
                  carry it, an edge at 60° has one, whose bonds stretch 1.67 times as much and give way first, by slip. Neither \
                  the sum over bonds nor the mass, the time step, the rate, the grips or the end of the notch changes that. \
-                 Elements of fewer than {KINKS_FROM} atoms an edge let the crack run straight (studies convergence-D and \
+                 Elements of fewer than {KINKS_FROM} atoms per edge let the crack run straight (studies convergence-D and \
                  models-A-E-fine)."
             ),
         ));

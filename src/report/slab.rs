@@ -178,7 +178,7 @@ mod tests {
 
     #[test]
     fn intact_elements_leave_no_gap() {
-        // An upright and an inverted element of three atoms an edge, spacing 1, seen where they meet.
+        // An upright and an inverted element of three atoms per edge, spacing 1, seen where they meet.
         let site = |i: f64, j: f64| [i + 0.5 * j, j * 0.75_f64.sqrt()];
         let corners = [
             [site(0.0, 0.0), site(2.0, 0.0), site(0.0, 2.0)],

@@ -3,7 +3,7 @@
 use super::film::Film;
 use crate::analysis::series::{Series, Setting};
 use crate::domain::{Burden, MessageCost};
-use crate::plan::{Comparison, SideBySide, Stages};
+use crate::plan::{Comparison, SideBySide, Stages, Swept};
 use crate::study::Growth;
 
 /// A study and the results of its cases, in the order in which they are to be shown.
@@ -15,6 +15,8 @@ pub struct Study {
     pub question: Option<String>,
     /// The study file as typed.
     pub text: String,
+    /// Width of the figures as files of their own, nm; 600 pixels where there is none.
+    pub figure_width: Option<f64>,
     /// The case to be shown through time, and at which strains.
     pub stages: Option<Stages>,
     /// Where the cases are to show what ranks gain.
@@ -59,6 +61,9 @@ pub struct CaseResult {
     /// The resolved case as pairs of dotted key and value, as a person reads them; the report shows those that differ
     /// between the cases.
     pub choices: Vec<(String, String)>,
+    /// The name that a sweep started from, and what it has set.
+    pub origin: String,
+    pub swept: Vec<Swept>,
     /// `None` where that cannot be told on this machine.
     pub specimen: Option<Specimen>,
     /// `None` where the case did not come as far as its set-up.

@@ -1,6 +1,7 @@
 //! The tables of a study: each has a file with its columns, its rows, and what is said of them elsewhere on the page.
 
 mod branches;
+pub mod cheapest;
 pub mod comparison;
 mod cost;
 mod crack_speed;
@@ -15,9 +16,13 @@ mod summary;
 pub mod wave_arrival;
 
 use super::side_by_side::{self, Panel};
+use super::sweep;
 use super::table::Table;
 use super::{Analysed, ReportError, scaling};
 use crate::plan::{Comparison, SCALING};
+
+/// The table of the cheapest choices.
+const CHEAPEST: &str = "cheapest_choice";
 
 /// All tables, in the order in which they are shown.
 pub fn all(
@@ -40,10 +45,11 @@ pub fn all(
         ("path", path::columns(cases)),
         ("cost", cost::columns(cases)),
     ];
-    let make = |(name, columns)| Table::new(name, columns);
+    let make = |(name, columns)| Table::new(name, sweep::with_keys(columns, cases));
     let mut tables = own.into_iter().map(make).collect::<Result<Vec<_>, _>>()?;
     let precision = speed_against_error::rows(cases);
     if !precision.is_empty() {
+        tables.push(make((CHEAPEST, cheapest::columns(&precision)))?);
         tables.push(make(("speed_against_error", speed_against_error::columns(precision)))?);
     }
     if let Some(scaling) = scaling {

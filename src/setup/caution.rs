@@ -1,14 +1,26 @@
 //! What is allowed and should be known before a case is computed.
 
+use super::intervals::between_pictures;
 use super::material;
 use crate::study::case::{Case, Summation};
 
 /// A sheet of atoms is about as thick as its atoms are apart; thicker or thinner than this many times, it is a slip of a unit.
 const UNLIKELY_THICKNESS: f64 = 20.0;
 
-/// Sentences about what a case has chosen.
-pub fn cautions(case: &Case) -> Vec<String> {
-    summation(case).into_iter().chain(thickness(case)).collect()
+/// Sentences about what a case has chosen, whose run takes about `time` (ps).
+pub fn cautions(case: &Case, time: f64) -> Vec<String> {
+    let found = [summation(case), thickness(case), pictures(case, time)];
+    found.into_iter().flatten().collect()
+}
+
+/// Pictures that the run ends before.
+fn pictures(case: &Case, time: f64) -> Option<String> {
+    let every = between_pictures(case).filter(|&every| every > time)?;
+    Some(format!(
+        "with a picture every {every:.3} ps a run of about {time:.3} ps has none but those of its start and its end; write a \
+         shorter `snapshots: {{every: …}}`, such as {:.2e} ps",
+        time / 10.0
+    ))
 }
 
 fn thickness(case: &Case) -> Option<String> {
@@ -31,7 +43,7 @@ fn summation(case: &Case) -> Option<String> {
              the report tells by how much"
         ),
         Summation::Nodal => {
-            "`summation: nodal` fails the patch test: uncracked it is 43 % too soft with 10 atoms an edge (2.20 against \
+            "`summation: nodal` fails the patch test: uncracked it is 43 % too soft with 10 atoms per edge (2.20 against \
              3.92 GPa at 1 %), and the report gives no K that takes the moduli of the lattice"
                 .to_owned()
         }

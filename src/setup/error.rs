@@ -177,7 +177,7 @@ impl SetupError {
                 if *rows < 4 { Subject::Width } else { Subject::Length },
                 format!(
                     "a specimen of {length} x {width} nm has room for {rows} rows of {triangles} triangles of {block} \
-                     atoms an edge ({spacing:.4} nm apart); it needs 4 rows (two are grips) of at least 3"
+                     atoms per edge ({spacing:.4} nm apart); it needs 4 rows (two are grips) of at least 3"
                 ),
                 "make it larger, or `block` smaller",
             ),
@@ -194,7 +194,7 @@ impl SetupError {
             Self::ElementTooLarge { element, rows } => Refusal::new(
                 Subject::Element,
                 format!(
-                    "elements of {element} atoms an edge do not fit: either side of the crack plane has {rows} rows of \
+                    "elements of {element} atoms per edge do not fit: either side of the crack plane has {rows} rows of \
                      atoms up to the grip"
                 ),
                 format!("use {rows} or less"),

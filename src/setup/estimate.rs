@@ -34,6 +34,13 @@ pub struct Estimate {
     pub seconds: f64,
 }
 
+impl Estimate {
+    /// Simulated time of the whole run, ps.
+    pub fn time(&self) -> f64 {
+        self.steps as f64 * self.time_step
+    }
+}
+
 /// A specimen as it is laid out.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Specimen {

@@ -11,11 +11,7 @@ const MOST_A_STEP: f64 = 10.0;
 /// Refuses probes and pictures that would come many times a step, rest that would be over between two probes, and damping that
 /// would take all motion out within a step. The time step in ps.
 pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
-    let Loading::StrainRate { rate, damping, .. } = case.loading;
-    let picture = case.snapshots.every.map(|interval| match interval {
-        SnapshotInterval::Strain(strain) => strain / rate,
-        SnapshotInterval::Time(time) => time,
-    });
+    let Loading::StrainRate { damping, .. } = case.loading;
     let step = ("a step", time_step);
     let part = ("a tenth of a step", time_step / MOST_A_STEP);
     let probe = ("the time between two probes", case.probes.every);
@@ -26,7 +22,12 @@ pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
             Some(case.probes.every),
             part,
         ),
-        (Subject::Snapshots, "the time between two pictures", picture, part),
+        (
+            Subject::Snapshots,
+            "the time between two pictures",
+            between_pictures(case),
+            part,
+        ),
         (
             Subject::UntilArrest,
             "the rest that ends the run",
@@ -52,4 +53,13 @@ pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
         }
     }
     Ok(())
+}
+
+/// Time between two pictures, ps.
+pub fn between_pictures(case: &Case) -> Option<f64> {
+    let Loading::StrainRate { rate, .. } = case.loading;
+    case.snapshots.every.map(|interval| match interval {
+        SnapshotInterval::Strain(strain) => strain / rate,
+        SnapshotInterval::Time(time) => time,
+    })
 }

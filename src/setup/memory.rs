@@ -1,5 +1,9 @@
 //! What the system tells of memory.
 
+use std::path::Path;
+
+use crate::durable;
+
 /// Bytes that are free.
 pub fn free() -> Option<u64> {
     entry("/proc/meminfo", "MemAvailable:")
@@ -12,7 +16,7 @@ pub fn peak() -> Option<u64> {
 
 /// Bytes that a line such as `MemAvailable:   24123456 kB` of a file stands for.
 fn entry(file: &str, name: &str) -> Option<u64> {
-    let table = std::fs::read_to_string(file).ok()?;
+    let table = durable::read_to_string(Path::new(file)).ok()?;
     let line = table.lines().find(|line| line.starts_with(name))?;
     let kibibytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
     Some(1024 * kibibytes)

@@ -90,6 +90,8 @@ impl Claim {
             self.attempt.reached = None;
         }
         fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
+        // A kill may have come when all was ready to be published.
+        files::set_read_only(&folder, false)?;
         files::remove(&folder.join("failure.json"))?;
         files::remove(&folder.join(OUTCOME))?;
         files::write(&folder.join(CASE), case_text.as_bytes())?;
@@ -160,6 +162,8 @@ impl Claim {
         };
         let text = serde_json::to_string_pretty(&manifest).expect("a manifest always has a JSON form") + "\n";
         files::write(&folder.join(MANIFEST), seal::sealed(&text).as_bytes())?;
+        // Who opens a published file to write would damage it unawares.
+        files::set_read_only(&folder, true)?;
         files::sync(&folder)?;
         self.rename_into_place(&folder)?;
         Ok(manifest)

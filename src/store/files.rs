@@ -1,7 +1,8 @@
 //! Writing that survives a crash: a file is either old or new, never half.
 
-use std::fs::{self, File, TryLockError};
+use std::fs::{self, File, Permissions, TryLockError};
 use std::io;
+use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 
 use serde::Serialize;
@@ -9,6 +10,10 @@ use serde::de::DeserializeOwned;
 
 use super::StoreError;
 use crate::durable;
+
+/// The bits of a mode that let anybody write, and that let the owner.
+const WRITE: u32 = 0o222;
+const OWN_WRITE: u32 = 0o200;
 
 /// End of the name of a file that is still being written.
 pub const ASIDE: &str = ".new";
@@ -32,23 +37,19 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<(), StoreError> {
 /// The value in a JSON file; the error is told in words.
 pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, String> {
     let name = path.file_name().unwrap_or_default().display();
-    let text = fs::read_to_string(path).map_err(|error| format!("{name} cannot be read ({error})"))?;
+    let text = durable::read_to_string(path).map_err(|error| format!("{name} cannot be read ({error})"))?;
     serde_json::from_str(&text).map_err(|error| format!("{name} is damaged ({error})"))
 }
 
 /// BLAKE3 of what is in a file, hexadecimal.
 pub fn checksum(path: &Path) -> io::Result<String> {
     let mut hasher = blake3::Hasher::new();
-    hasher.update_reader(File::open(path)?)?;
+    hasher.update_reader(durable::open(path)?)?;
     Ok(hasher.finalize().to_string())
 }
 
 pub fn open_lock(path: &Path) -> Result<File, StoreError> {
-    File::options()
-        .create(true)
-        .append(true)
-        .open(path)
-        .map_err(StoreError::write(path))
+    durable::append(path).map_err(StoreError::write(path))
 }
 
 /// The locked file, or `None` while another process holds it.
@@ -63,13 +64,27 @@ pub fn try_lock(path: &Path) -> Result<Option<File>, StoreError> {
 
 /// Whether another process holds the lock; leaves no trace.
 pub fn is_locked(path: &Path) -> bool {
-    let Ok(file) = File::open(path) else { return false };
+    let Ok(file) = durable::open(path) else { return false };
     matches!(file.try_lock_shared(), Err(TryLockError::WouldBlock))
 }
 
 /// Flushes a file or the entries of a folder to the disk.
 pub fn sync(path: &Path) -> Result<(), StoreError> {
     durable::sync(path).map_err(StoreError::write(path))
+}
+
+/// Takes from everybody the right to write the files of a folder, or gives it back to their owner.
+pub fn set_read_only(folder: &Path, read_only: bool) -> Result<(), StoreError> {
+    for entry in fs::read_dir(folder).map_err(StoreError::read(folder))? {
+        let path = entry.map_err(StoreError::read(folder))?.path();
+        let metadata = fs::symlink_metadata(&path).map_err(StoreError::read(&path))?;
+        if metadata.is_file() {
+            let mode = metadata.permissions().mode();
+            let mode = if read_only { mode & !WRITE } else { mode | OWN_WRITE };
+            fs::set_permissions(&path, Permissions::from_mode(mode)).map_err(StoreError::write(&path))?;
+        }
+    }
+    Ok(())
 }
 
 /// Removes what a killed process was just writing in place of `name`.

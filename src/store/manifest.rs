@@ -1,9 +1,12 @@
 //! The small JSON files that tell what became of a case.
 
 use std::collections::BTreeMap;
+use std::path::Path;
 
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
+
+use crate::durable;
 
 /// Provenance of a published run: `manifest.json`, written last, never edited.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -18,7 +21,7 @@ pub struct Manifest {
     /// `None` where the machine does not tell its name.
     pub host: Option<String>,
     pub ranks: u32,
-    /// Threads a rank, at the end.
+    /// Threads per rank, at the end.
     pub threads: u32,
     /// The job of Slurm that published it, such as `123_4`; `None` outside Slurm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -151,7 +154,7 @@ pub struct Failure {
 
 /// Name of this machine.
 pub fn host() -> Option<String> {
-    let name = std::fs::read_to_string("/proc/sys/kernel/hostname")
+    let name = durable::read_to_string(Path::new("/proc/sys/kernel/hostname"))
         .ok()
         .or_else(|| std::env::var("HOSTNAME").ok())?;
     Some(name.trim().to_owned()).filter(|name| !name.is_empty())

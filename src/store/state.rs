@@ -2,6 +2,7 @@ use std::fs;
 
 use super::claim::SOLVER_LOCK;
 use super::{Attempt, Failure, Manifest, Store, files, seal};
+use crate::durable;
 
 /// What there is of a case.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,7 +79,7 @@ impl Store {
     /// The manifest of a published run whose files are there in the sizes they were published with; otherwise what is wrong.
     pub(super) fn manifest(&self, id: &str) -> Result<Manifest, String> {
         let folder = self.run_folder(id);
-        let text = fs::read_to_string(folder.join("manifest.json"))
+        let text = durable::read_to_string(&folder.join("manifest.json"))
             .map_err(|error| format!("manifest.json cannot be read ({error})"))?;
         let manifest: Manifest =
             serde_json::from_str(&text).map_err(|error| format!("manifest.json is damaged ({error})"))?;

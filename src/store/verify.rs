@@ -3,10 +3,10 @@
 //! Sizes are compared whenever somebody asks for a state; content only here, because pictures may be gigabytes. What is
 //! found to be damaged is remembered beside the manifest, so that the next run of the study computes the case again.
 
-use std::fs;
 use std::path::PathBuf;
 
 use super::{Manifest, State, Store, files};
+use crate::durable;
 
 /// Says what is damaged; goes with the folder when a new run takes its place.
 const DAMAGE: &str = "damage.txt";
@@ -42,7 +42,7 @@ impl Store {
 
     /// What an earlier look at the content of a run has found.
     pub(super) fn known_damage(&self, id: &str) -> Option<String> {
-        fs::read_to_string(self.damage(id)).ok()
+        durable::read_to_string(&self.damage(id)).ok()
     }
 
     fn first_damaged(&self, manifest: &Manifest) -> Option<String> {

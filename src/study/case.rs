@@ -266,7 +266,7 @@ pub const MOST_RANKS: u32 = 1 << 24;
 pub struct Execution {
     /// Processes a case is shared between; `None`: what a cluster's job has, else one.
     pub ranks: Option<u32>,
-    /// Threads a rank; `None`: what the machine has, shared between the jobs.
+    /// Threads per rank; `None`: what the machine has, shared between the jobs.
     pub threads: Option<u32>,
     /// Wall time between checkpoints, s.
     pub checkpoint_every: f64,

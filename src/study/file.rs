@@ -63,6 +63,7 @@ pub struct CaseFile {
     pub observe: Given<Vec<Given<Observe>>>,
 }
 
+/// The slab: its lattice and its sizes, grips included.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Specimen {
@@ -71,18 +72,20 @@ pub struct Specimen {
     pub length: Given<Length>,
     /// Extent across the crack (y).
     pub width: Given<Length>,
-    /// Atoms an edge of the triangles that lay out the specimen, whatever the resolution. Where left out it is
+    /// Atoms per edge of the triangles that lay out the specimen, whatever the resolution. Where left out it is
     /// `resolution.element`, and 10 where that is single atoms.
     pub block: Given<u32>,
     pub grips: Given<Grips>,
 }
 
+/// The lattice of the sites.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Lattice {
     Triangular,
 }
 
+/// What the grips hold; `clamped` where left out.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Grips {
@@ -92,10 +95,11 @@ pub enum Grips {
     Sliding,
 }
 
+/// How many atoms an element stands for, and where finer ones are.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Resolution {
-    /// Atoms an edge of an element; 1 is the single atom, and 2 does not exist.
+    /// Atoms per edge of an element; 1 is the single atom, and 2 does not exist.
     pub element: Given<u32>,
     /// Where finer elements are used; the finest region that holds a site decides.
     pub regions: Given<Vec<Given<Region>>>,
@@ -111,14 +115,16 @@ pub enum Region {
     Disc(Disc),
 }
 
+/// A band along the crack plane with elements of its own.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Band {
     pub half_width: Given<Length>,
-    /// Atoms an edge of an element here; 1 is the single atom.
+    /// Atoms per edge of an element here; 1 is the single atom.
     pub element: Given<u32>,
 }
 
+/// A rectangle with elements of its own.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 #[schemars(rename = "Box")]
@@ -127,20 +133,22 @@ pub struct Rectangle {
     pub from: Given<[Given<Length>; 2]>,
     /// Upper right corner, [x, y].
     pub to: Given<[Given<Length>; 2]>,
-    /// Atoms an edge of an element here; 1 is the single atom.
+    /// Atoms per edge of an element here; 1 is the single atom.
     pub element: Given<u32>,
 }
 
+/// A disc with elements of its own.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Disc {
     /// [x, y]
     pub center: Given<[Given<Length>; 2]>,
     pub radius: Given<Length>,
-    /// Atoms an edge of an element here; 1 is the single atom.
+    /// Atoms per edge of an element here; 1 is the single atom.
     pub element: Given<u32>,
 }
 
+/// The notch from which the crack runs; leave it out for a whole slab.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Crack {
@@ -176,6 +184,7 @@ pub enum Edge {
     None,
 }
 
+/// How the specimen is pulled.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Loading {
@@ -183,6 +192,7 @@ pub enum Loading {
     StrainRate(StrainRate),
 }
 
+/// The grips part at a constant rate.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct StrainRate {
@@ -197,12 +207,14 @@ pub struct StrainRate {
     pub damping: Given<Rate>,
 }
 
+/// Mode of the loading; `I` where left out.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 pub enum Mode {
     /// Opening.
     I,
 }
 
+/// How the motion begins.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Ramp {
@@ -212,6 +224,7 @@ pub enum Ramp {
     AtRest,
 }
 
+/// When the run ends, its time step, its economies, and what computes it.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Run {
@@ -258,6 +271,7 @@ pub enum TimeStep {
     Given(Time),
 }
 
+/// Which bonds are summed; `exact` where left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Summation {
@@ -269,6 +283,7 @@ pub enum Summation {
     Nodal,
 }
 
+/// Mass of the nodes; `lumped` where left out.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum MassMatrix {
@@ -280,6 +295,7 @@ pub enum MassMatrix {
     Blend(#[schemars(range(min = 0, max = 1))] Given<f64>),
 }
 
+/// Coming to rest before the run.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Relax {
@@ -287,6 +303,7 @@ pub struct Relax {
     pub strain: Given<Fraction>,
 }
 
+/// The time series.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Probes {
@@ -305,6 +322,7 @@ pub enum Observe {
     Snapshots(Snapshots),
 }
 
+/// Pictures of the whole specimen, for ParaView and the report.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Snapshots {

@@ -75,10 +75,15 @@ impl JsonSchema for Sweep {
 
     fn json_schema(_: &mut SchemaGenerator) -> Schema {
         let list = json_schema!({ "type": "array", "minItems": 1 });
-        let end = json_schema!({ "type": ["number", "string"] });
+        let end = |what: &str| json_schema!({ "description": what, "type": ["number", "string"] });
         let range = json_schema!({
             "type": "object",
-            "properties": { "from": end, "to": end, "step": end },
+            "description": "Equal steps from one end to the other",
+            "properties": {
+                "from": end("The first value"),
+                "to": end("The last value"),
+                "step": end("What is between two values"),
+            },
             "required": ["from", "to", "step"],
             "additionalProperties": false,
         });

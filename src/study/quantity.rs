@@ -1,5 +1,7 @@
 //! Quantities of a study: a number in internal units, typed with its unit.
 
+mod pattern;
+
 use crate::units::{self, Dimension};
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, de};
@@ -85,14 +87,11 @@ impl<K: Kind> JsonSchema for Quantity<K> {
         json_schema!({
             "type": "string",
             "description": format!("{} with its unit, such as {example}", K::DIMENSION.noun()),
-            "pattern": QUANTITY,
+            "pattern": pattern::of(K::DIMENSION),
             "examples": [example],
         })
     }
 }
-
-/// A number and something after it; which units fit is checked by cgaft itself.
-const QUANTITY: &str = r"^[+-]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][+-]?[0-9]+)?\s*[^0-9\s.].*$";
 
 /// Time between snapshots: `0.05 % strain` or `10 ps`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -137,7 +136,7 @@ impl JsonSchema for Interval {
         json_schema!({
             "type": "string",
             "description": "A strain or a time, such as 0.05 % strain or 10 ps",
-            "pattern": QUANTITY,
+            "pattern": pattern::of_interval(),
             "examples": ["0.05 % strain", "10 ps"],
         })
     }

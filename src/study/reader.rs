@@ -6,6 +6,7 @@
 mod access;
 mod any;
 mod deserializer;
+mod example;
 mod position;
 
 use super::{

@@ -48,7 +48,7 @@ impl Table {
 pub fn resolve(case: &Given<CaseFile>, name: &str, findings: &Findings) -> Option<Resolved> {
     let check = Check { findings, case: name };
     let (case, place) = check.section(case, Place::default())?;
-    let tables = tables(&case.observe);
+    let mut tables = tables(&case.observe);
     let (material, spacing) = check.material(&case.material, place);
     let element = case
         .resolution
@@ -65,6 +65,10 @@ pub fn resolve(case: &Given<CaseFile>, name: &str, findings: &Findings) -> Optio
     let execution = check.execution(&case.run);
     let probes = check.probes(&case.probes);
     let snapshots = check.snapshots(&case.observe);
+    if matches!(crack, Some(None)) {
+        check.observes_no_crack(&case.observe);
+        tables.retain(|table| !matches!(table, Table::Crack | Table::WaveArrival));
+    }
     let case = Case {
         material: material?,
         specimen: specimen.specimen?,

@@ -1,9 +1,10 @@
 //! Finding the text of a study and of the files that it names: files here, or what came with the program.
 
 use super::finding::{Finding, nearest};
+use crate::durable;
 use std::{
     fs::{self, File},
-    io::{self, ErrorKind, Read},
+    io::{ErrorKind, Read},
     path::Path,
 };
 
@@ -70,26 +71,12 @@ pub static SHIPPED: [Shipped; 13] = [
 /// Largest file that is read, in bytes; a study of a thousand cases is a hundredth of it.
 const LARGEST: u64 = 1_000_000;
 
-/// Opens a file that can be read to its end: neither a folder nor a pipe or device, which might never end.
-fn open(path: &Path) -> io::Result<File> {
-    let kind = fs::metadata(path)?.file_type();
-    if kind.is_file() {
-        return File::open(path);
-    }
-    let what = if kind.is_dir() {
-        "a folder"
-    } else {
-        "a pipe or a device"
-    };
-    Err(io::Error::other(format!("it is {what} and no file")))
-}
-
 /// The text of a study file, or the shipped study of that name where there is no such file.
 pub fn text(path: &str) -> Result<(String, Option<&'static Shipped>), Finding> {
     if Path::new(path).is_dir() {
         return Err(Finding::whole("this is a folder, not a file").help("name the study file in it"));
     }
-    match open(Path::new(path)) {
+    match durable::open(Path::new(path)) {
         Ok(file) => read(file).map(|text| (text, None)),
         Err(error) if error.kind() == ErrorKind::NotFound => {
             shipped(path).map(|shipped| (shipped.text.into(), Some(shipped)))
@@ -108,7 +95,7 @@ pub fn beside(study: &str, shipped: Option<&Shipped>, name: &str) -> Result<Stri
     }
     let path = Path::new(study).parent().unwrap_or(Path::new("")).join(name);
     let mut text = String::new();
-    match open(&path).and_then(|file| file.take(LARGEST + 1).read_to_string(&mut text)) {
+    match durable::open(&path).and_then(|file| file.take(LARGEST + 1).read_to_string(&mut text)) {
         Ok(bytes) if bytes as u64 > LARGEST => Err(format!("{name} is larger than 1 MB")),
         Ok(_) => Ok(text),
         Err(error) => Err(format!("{name} cannot be read: {error}")),

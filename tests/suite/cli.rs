@@ -1,5 +1,6 @@
 //! The program as a person uses it, with a script in the place of the solver.
 
+mod cautions;
 mod export;
 mod interrupt;
 mod messages;
@@ -8,6 +9,9 @@ mod repeat;
 mod single;
 mod slurm;
 mod specimen;
+mod sweep;
+mod table;
+mod tools;
 
 use std::fs;
 use std::path::{Path, PathBuf};

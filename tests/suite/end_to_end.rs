@@ -3,10 +3,12 @@
 mod beside;
 mod checkpoint;
 mod damage;
+mod endless;
 mod failure;
 mod full;
 mod interrupt;
 mod kill;
+mod pages;
 mod quickstart;
 mod ranks;
 mod repeat;

@@ -10,6 +10,7 @@ mod precision;
 mod scaling;
 mod side_by_side;
 mod specimen;
+mod sweep;
 mod units;
 mod verdict;
 
@@ -58,6 +59,8 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
         id: format!("{name}-0123456789abcdef"),
         resolved: "material:\n  mass: 802 u\n".to_owned(),
         choices: choices.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec(),
+        origin: name.to_owned(),
+        swept: Vec::new(),
         specimen: None,
         film: Some(film(&setting, if name == "coarse" { 10 } else { 1 })),
         setting: Some(setting),
@@ -119,6 +122,7 @@ fn three_meshes() -> Study {
         title: Some("Three meshes, one crack".to_owned()),
         question: Some("How much does a crack notice that the far field is coarse?".to_owned()),
         text: "study: quickstart\nquestion: How much does a crack notice that the far field is coarse?\n".to_owned(),
+        figure_width: None,
         stages: None,
         scaling: None,
         comparisons: Vec::new(),

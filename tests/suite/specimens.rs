@@ -1,5 +1,8 @@
 //! Small specimens and states that several tests share.
 
+use std::fs;
+use std::path::Path;
+
 use cgaft::forces::Planes;
 use cgaft::material::Material;
 use cgaft::mesh::cut::Crack;
@@ -7,6 +10,12 @@ use cgaft::mesh::region::{Region, Shape};
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::{AtCutoff, CutPotential, HarmonicBond, Interaction, LennardJones, Morse};
+
+/// Replaces a published file, which nobody may write.
+pub fn put_in_the_place_of(file: &Path, bytes: impl AsRef<[u8]>) {
+    fs::remove_file(file).unwrap();
+    fs::write(file, bytes).unwrap();
+}
 
 pub const LENNARD_JONES: LennardJones = LennardJones {
     epsilon: 1.0,
@@ -67,7 +76,7 @@ pub fn all_materials() -> Vec<(&'static str, Material)> {
     ]
 }
 
-/// A slab of 6 x 9 blocks of 10 atoms an edge, a crack of 10 spacings to a corner of elements, and this resolution.
+/// A slab of 6 x 9 blocks of 10 atoms per edge, a crack of 10 spacings to a corner of elements, and this resolution.
 pub fn slab(element: u16, regions: Vec<Region>, spacing: f64) -> Mesh {
     let layout = Layout {
         block: 10,

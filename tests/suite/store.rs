@@ -8,6 +8,8 @@ use cgaft::store::{Account, FolderLock, Leftover, Outcome, Phase, Reached, State
 use serde_json::json;
 use tempfile::TempDir;
 
+use super::specimens::put_in_the_place_of;
+
 fn store() -> (TempDir, Store) {
     let folder = tempfile::tempdir().unwrap();
     let store = Store::open(folder.path(), "slab").unwrap();
@@ -51,6 +53,23 @@ fn a_run_killed_just_before_it_was_published_is_published_whole() {
         .publish(outcome(), "A", &json!({"crack": "none"}), 1, 2, None)
         .unwrap();
     assert!(matches!(store.state("1f"), State::Done(_)), "{:?}", store.state("1f"));
+}
+
+#[test]
+fn nobody_may_write_a_published_file_and_a_new_run_takes_its_place_all_the_same() {
+    let (_folder, store) = store();
+    for _ in 0..2 {
+        publish(&store, "1f");
+        for name in ["case.yaml", "series.h5", "manifest.json"] {
+            let mode = fs::metadata(store.run_folder("1f").join(name))
+                .unwrap()
+                .permissions()
+                .mode();
+            assert_eq!(mode & 0o222, 0, "{name}: {mode:o}");
+        }
+    }
+    store.clean(&set(&[]), &set(&[]), &set(&[])).unwrap();
+    assert!(!store.run_folder("1f").exists(), "and it can be removed");
 }
 
 fn set(names: &[&str]) -> BTreeSet<String> {
@@ -176,7 +195,7 @@ fn damage_to_a_published_run_is_seen() {
 fn flip_a_bit(file: &Path) {
     let mut bytes = fs::read(file).unwrap();
     bytes[0] ^= 1;
-    fs::write(file, bytes).unwrap();
+    put_in_the_place_of(file, bytes);
 }
 
 #[test]
@@ -225,7 +244,7 @@ fn a_run_published_before_there_were_checksums_is_judged_by_its_sizes() {
     for later in ["blake3", "seal"] {
         manifest.as_object_mut().unwrap().remove(later).unwrap();
     }
-    fs::write(&path, manifest.to_string()).unwrap();
+    put_in_the_place_of(&path, manifest.to_string());
     flip_a_bit(&store.run_folder("1f").join("series.h5"));
     let State::Done(manifest) = store.verified_state("1f") else {
         panic!("its sizes are right")
@@ -240,7 +259,7 @@ fn remove_series(run: &Path) {
 }
 
 fn cut_series(run: &Path) {
-    fs::write(run.join("series.h5"), "r").unwrap();
+    put_in_the_place_of(&run.join("series.h5"), "r");
 }
 
 fn remove_manifest(run: &Path) {
@@ -248,7 +267,7 @@ fn remove_manifest(run: &Path) {
 }
 
 fn cut_manifest(run: &Path) {
-    fs::write(run.join("manifest.json"), "{\"id\":").unwrap();
+    put_in_the_place_of(&run.join("manifest.json"), "{\"id\":");
 }
 
 #[test]

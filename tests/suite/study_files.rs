@@ -4,6 +4,7 @@
 //! `# 5:14 message` for a place, `# - message` for the file as a whole, and `#   help: …` where the help matters.
 
 mod mutations;
+mod schema;
 mod shipped;
 
 use cgaft::{
@@ -135,55 +136,6 @@ fn every_right_study_gives_cases() {
 }
 
 #[test]
-fn every_study_fits_the_schema() {
-    let validator = jsonschema::draft7::new(&study::schema()).unwrap();
-    let texts = right_studies()
-        .into_iter()
-        .map(|path| (path.display().to_string(), fs::read_to_string(&path).unwrap()));
-    for (name, text) in texts.chain([("starter".to_owned(), starter("fresh"))]) {
-        let options = serde_saphyr::options! { strict_booleans: true };
-        let value: serde_json::Value = serde_saphyr::from_str_with_options(&text, options).unwrap();
-        let errors: Vec<String> = validator
-            .iter_errors(&value)
-            .map(|error| format!("{}: {error}", error.instance_path()))
-            .collect();
-        assert!(errors.is_empty(), "{name}: {errors:#?}");
-    }
-}
-
-/// Most slips can be seen by an editor that knows the schema; what needs arithmetic cannot.
-#[test]
-fn the_schema_refuses_wrong_keys_variants_and_bare_numbers() {
-    let validator = jsonschema::draft7::new(&study::schema()).unwrap();
-    for name in [
-        "unknown_key",
-        "unknown_variant",
-        "unknown_word",
-        "unit_missing",
-        "not_a_number",
-        "whole_number_expected",
-    ] {
-        let path = format!("{}/tests/study_files/bad/{name}.yaml", env!("CARGO_MANIFEST_DIR"));
-        let value: serde_json::Value = serde_saphyr::from_str(&fs::read_to_string(path).unwrap()).unwrap();
-        assert!(!validator.is_valid(&value), "{name}");
-    }
-}
-
-/// `CGAFT_WRITE_SCHEMA=1 cargo test` writes it anew.
-#[test]
-fn the_schema_file_is_what_the_types_say() {
-    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("schemas/study.schema.json");
-    let text = serde_json::to_string_pretty(&study::schema()).unwrap() + "\n";
-    if std::env::var_os("CGAFT_WRITE_SCHEMA").is_some() {
-        fs::write(&path, &text).unwrap();
-    }
-    assert!(
-        fs::read_to_string(&path).unwrap() == text,
-        "stale: run the tests with CGAFT_WRITE_SCHEMA=1"
-    );
-}
-
-#[test]
 fn a_reference_is_for_all_that_a_sweep_makes_of_its_case() {
     let plan = check(&Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/study_files/good/models.yaml")).unwrap();
     let [comparison] = plan.comparisons.as_slice() else {
@@ -201,6 +153,28 @@ fn a_reference_is_for_all_that_a_sweep_makes_of_its_case() {
 }
 
 #[test]
+fn a_reference_by_swept_values_is_for_all_cases_that_have_them() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(
+        folder.path().join("starts.csv"),
+        "crack_length_nm,initiation_strain\n46,0.012\n50.0,0.011\n",
+    )
+    .unwrap();
+    let path = folder.path().join("study.yaml");
+    let sweep =
+        "\nsweep:\n  crack.length: [46 nm, 0.05 um]\n  probes.every: [1 ps, 2 ps]\ncompare: {starts: starts.csv}\n";
+    fs::write(&path, starter("fresh") + sweep).unwrap();
+    let plan = check(&path).unwrap();
+    let [comparison] = plan.comparisons.as_slice() else {
+        panic!("{:?}", plan.comparisons)
+    };
+    let of = |value: f64| comparison.values.iter().filter(move |expected| expected.value == value);
+    assert_eq!(comparison.table, "summary");
+    assert_eq!([of(0.012).count(), of(0.011).count()], [plan.cases.len() / 2; 2]);
+    assert!(of(0.011).all(|expected| expected.case.contains("length-50nm")));
+}
+
+#[test]
 fn the_starter_study_is_right_as_it_is() {
     let plan = check_text(&starter("crack-speed")).unwrap();
     assert_eq!(plan.study, "crack-speed");
@@ -215,11 +189,13 @@ fn a_written_case_reads_back_to_the_same_bits() {
         let path = folder.path().join("case.yaml");
         fs::write(&path, write_case(&planned)).unwrap();
         // It is a study of its own, so that one case can be repeated from its folder alone; there it has nothing beside it.
-        let id = RunId::of(&planned.case);
-        assert_eq!(
-            read_case(path.to_str().unwrap()).unwrap().cases,
-            [PlannedCase { id, ..planned }]
-        );
+        let alone = PlannedCase {
+            id: RunId::of(&planned.case),
+            origin: planned.name.clone(),
+            swept: Vec::new(),
+            ..planned
+        };
+        assert_eq!(read_case(path.to_str().unwrap()).unwrap().cases, [alone]);
     }
 }
 

@@ -180,7 +180,7 @@ fn intensity(strain: f64) -> f64 {
     230.0 * strain / 0.018
 }
 
-/// A slab of triangles of so many atoms an edge (1: of atoms), torn open up to `tip` nm.
+/// A slab of triangles of so many atoms per edge (1: of atoms), torn open up to `tip` nm.
 pub fn torn(setting: &Setting, element: u32, tip: f64, strain: f64) -> (FieldMesh, Frame) {
     let mut mesh = FieldMesh {
         offsets: vec![0],

@@ -20,7 +20,7 @@ const FLOORS: [&[&str]; 10] = [
 ];
 
 /// What stands for a crate or a system service in the text of a source file, and the modules that may use it.
-const OWNERS: [(&str, &[&str]); 11] = [
+const OWNERS: [(&str, &[&str]); 14] = [
     ("polars", &["report"]),
     ("plotters", &["report"]),
     ("hdf5::", &["record"]),
@@ -30,6 +30,10 @@ const OWNERS: [(&str, &[&str]); 11] = [
     ("Command::new(", &["executor"]),
     ("remove_dir", &["store"]),
     ("fs::rename", &["durable", "store"]),
+    // What is read must have an end, which `durable` sees to.
+    ("File::open(", &["durable"]),
+    ("fs::read(", &["durable"]),
+    ("fs::read_to_string(", &["durable"]),
     ("println!", &[]),
     ("process::exit", &[]),
 ];

@@ -164,7 +164,7 @@ fn write_page(page: &Page) {
     let mut text = String::from(
         "# Verification\n\nWritten by `make verify` from a run of all gates. \
          Reduced Lennard-Jones units (epsilon = sigma = mass = 1) and the triangular lattice unless said otherwise; \
-         r0 is the lattice spacing, n the number of atoms an edge of an element, n = 1 single atoms.\n",
+         r0 is the lattice spacing, n the number of atoms per edge of an element, n = 1 single atoms.\n",
     );
     let mut chapter = None;
     for ((next, _), rows) in page {

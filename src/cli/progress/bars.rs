@@ -3,7 +3,10 @@ use std::time::Duration;
 
 use indicatif::{MultiProgress, ProgressBar, ProgressStyle};
 
-use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words, widened_words};
+use super::{
+    Pace, STOPPING, WAITING, Whole, ending_words, failure_words, progress_words, reached_words, study_words,
+    widened_words,
+};
 use crate::cli::terminal::{Terminal, warn};
 use crate::executor::{Ending, Job, Progress, Watcher};
 use crate::store::{Reached, Store};
@@ -15,6 +18,9 @@ pub struct Bars {
     screen: MultiProgress,
     /// By the id of the case.
     cases: HashMap<String, (ProgressBar, Option<Pace>)>,
+    whole: Whole,
+    /// Below the cases, where there are several.
+    study: Option<ProgressBar>,
 }
 
 /// A bar with the name before it and room for words behind it.
@@ -25,22 +31,42 @@ pub fn new_bar(name: &str) -> ProgressBar {
 }
 
 impl Bars {
-    pub fn new(terminal: Terminal, store: Store) -> Bars {
+    pub fn new(terminal: Terminal, store: Store, whole: Whole) -> Bars {
+        let screen = MultiProgress::new();
+        let study = whole.is_several().then(|| screen.add(new_bar("study")));
         Bars {
             terminal,
             store,
-            screen: MultiProgress::new(),
+            screen,
             cases: HashMap::new(),
+            whole,
+            study,
         }
     }
 
     fn bar(&mut self, job: &Job) -> &mut (ProgressBar, Option<Pace>) {
-        let screen = &self.screen;
+        let (screen, below) = (&self.screen, usize::from(self.study.is_some()));
         self.cases.entry(job.id.clone()).or_insert_with(|| {
-            let bar = screen.add(new_bar(&job.name));
+            let bar = screen.insert_from_back(below, new_bar(&job.name));
             bar.enable_steady_tick(Duration::from_millis(200));
             (bar, None)
         })
+    }
+}
+
+impl Bars {
+    /// `2 of 9 cases ended, about 12 min left of the study`
+    fn tell_study(&self) {
+        let Some(bar) = &self.study else { return };
+        let (ended, total) = (self.whole.ended(), self.whole.total());
+        bar.set_position((100 * ended / total) as u64);
+        let left = study_words(&self.whole)
+            .map(|words| format!(", {words}"))
+            .unwrap_or_default();
+        bar.set_message(format!("{ended} of {total} cases ended{left}"));
+        if ended == total {
+            bar.finish_and_clear();
+        }
     }
 }
 
@@ -54,7 +80,8 @@ impl Watcher for Bars {
     }
 
     fn started(&mut self, job: &Job) {
-        self.bar(job).0.set_message("starting");
+        let count = self.whole.count(job);
+        self.bar(job).0.set_message(format!("starting, {count}"));
     }
 
     fn widened(&mut self, job: &Job, cores: usize) {
@@ -68,6 +95,8 @@ impl Watcher for Bars {
         let pace = pace.get_or_insert_with(|| Pace::starting_at(progress.percent));
         bar.set_position(progress.percent as u64);
         bar.set_message(progress_words(progress, pace));
+        self.whole.reach(job, progress.percent);
+        self.tell_study();
     }
 
     fn reached(&mut self, job: &Job, reached: &Reached) {
@@ -86,6 +115,8 @@ impl Watcher for Bars {
 
     fn ended(&mut self, job: &Job, ending: &Ending) {
         self.bar(job).0.finish_and_clear();
+        self.whole.end(job);
+        self.tell_study();
         self.screen.suspend(|| match ending {
             Ending::Failed(failure) => warn(&failure_words(job, failure, &self.store)),
             _ => self.terminal.say(&ending_words(job, ending)),

@@ -1,7 +1,10 @@
 use std::collections::HashMap;
 use std::time::{Duration, Instant};
 
-use super::{Pace, STOPPING, WAITING, ending_words, failure_words, progress_words, reached_words, widened_words};
+use super::{
+    Pace, STOPPING, WAITING, Whole, ending_words, failure_words, progress_words, reached_words, study_words,
+    widened_words,
+};
 use crate::cli::terminal::{Terminal, warn};
 use crate::executor::{Ending, Job, Progress, Watcher};
 use crate::store::{Reached, Store};
@@ -15,14 +18,16 @@ pub struct Lines {
     store: Store,
     /// By the id of the case: its pace, and when it was last spoken of.
     cases: HashMap<String, (Pace, Instant)>,
+    whole: Whole,
 }
 
 impl Lines {
-    pub fn new(terminal: Terminal, store: Store) -> Lines {
+    pub fn new(terminal: Terminal, store: Store, whole: Whole) -> Lines {
         Lines {
             terminal,
             store,
             cases: HashMap::new(),
+            whole,
         }
     }
 }
@@ -49,7 +54,12 @@ impl Watcher for Lines {
     }
 
     fn started(&mut self, job: &Job) {
-        self.terminal.say(&format!("{}: started", job.name));
+        let count = self.whole.count(job);
+        let words = match self.whole.is_several() {
+            true => format!("{}: started ({count})", job.name),
+            false => format!("{}: started", job.name),
+        };
+        self.terminal.say(&words);
     }
 
     fn widened(&mut self, job: &Job, cores: usize) {
@@ -58,7 +68,11 @@ impl Watcher for Lines {
     }
 
     fn progress(&mut self, job: &Job, progress: &Progress) {
-        self.now_and_then(job, progress.percent, |pace| progress_words(progress, pace));
+        self.whole.reach(job, progress.percent);
+        let of_study = study_words(&self.whole)
+            .map(|words| format!("  {words}"))
+            .unwrap_or_default();
+        self.now_and_then(job, progress.percent, |pace| progress_words(progress, pace) + &of_study);
     }
 
     fn reached(&mut self, job: &Job, reached: &Reached) {
@@ -74,6 +88,7 @@ impl Watcher for Lines {
     }
 
     fn ended(&mut self, job: &Job, ending: &Ending) {
+        self.whole.end(job);
         match ending {
             Ending::Failed(failure) => warn(&failure_words(job, failure, &self.store)),
             _ => self.terminal.say(&ending_words(job, ending)),

@@ -1,14 +1,13 @@
 //! What the store holds, as the report wants it.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde_json::Value;
-
 use crate::analysis::series::{Series, Setting};
+use crate::cli::choices;
 use crate::cli::specimen::end;
 use crate::cli::survey::{Entry, Survey};
 use crate::domain::MessageCost;
+use crate::durable;
 use crate::plan::{self, SCALING};
 use crate::record::{self, CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE};
 use crate::report::{CaseResult, Failure, Film, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
@@ -28,6 +27,7 @@ pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
         title: survey.plan.title.clone(),
         question: survey.plan.question.clone(),
         text: survey.plan.source().to_owned(),
+        figure_width: survey.plan.figure_width,
         stages: survey.plan.stages.clone(),
         scaling,
         comparisons,
@@ -83,13 +83,13 @@ fn scaling(survey: &Survey) -> Option<Scaling> {
 
 /// What became of a case, with its pictures if they are wanted.
 pub fn case_result(survey: &Survey, entry: &Entry, with_film: bool) -> CaseResult {
-    let mut choices = Vec::new();
-    flatten(&plan::spelled(&entry.planned.case), "", &mut choices);
     let mut result = CaseResult {
         name: entry.planned.name.clone(),
         id: entry.id.clone(),
         resolved: plan::write_case(&entry.planned),
-        choices,
+        choices: choices::of_case(&plan::spelled(&entry.planned.case)),
+        origin: entry.planned.origin.clone(),
+        swept: entry.planned.swept.clone(),
         manifest: Manifest {
             state: entry.state.word().to_owned(),
             ..Manifest::default()
@@ -140,7 +140,7 @@ fn set_kept(result: &mut CaseResult, folder: &Path) {
 fn digest(folder: &Path) -> Option<String> {
     let mut hash = blake3::Hasher::new();
     for name in [SERIES_FILE, FIELDS_FILE, CHECKPOINT_FILE] {
-        hash.update(&fs::read(folder.join(name)).ok()?);
+        hash.update(&durable::read(&folder.join(name)).ok()?);
     }
     Some(hash.finalize().to_hex().to_string())
 }
@@ -209,59 +209,4 @@ fn failure(reason: String, log_tail: &str) -> Failure {
 
 fn moment(time: jiff::Timestamp) -> String {
     time.strftime("%F %T UTC").to_string()
-}
-
-/// `crack.length` and its value, for every leaf.
-fn flatten(value: &Value, path: &str, pairs: &mut Vec<(String, String)>) {
-    match value {
-        Value::Object(map) => {
-            for (key, inner) in map {
-                let path = if path.is_empty() {
-                    key.clone()
-                } else {
-                    format!("{path}.{key}")
-                };
-                flatten(inner, &path, pairs);
-            }
-        }
-        leaf => pairs.push((path.to_owned(), spelled_leaf(leaf))),
-    }
-}
-
-/// A value in words: "none", "band half-width 8.8 nm element 1".
-fn spelled_leaf(value: &Value) -> String {
-    match value {
-        Value::Array(values) if values.is_empty() => "none".to_owned(),
-        Value::Array(values) => values.iter().map(spelled_leaf).collect::<Vec<_>>().join("; "),
-        Value::Object(map) => {
-            let pairs = map.iter().map(|(key, inner)| format!("{key} {}", spelled_leaf(inner)));
-            pairs.collect::<Vec<_>>().join(" ")
-        }
-        Value::String(text) => text.clone(),
-        other => other.to_string(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn choices_are_named_as_in_the_study_file() {
-        let case = serde_json::json!({"crack": {"edge": "left", "length": "56 nm"}, "resolution": {"element": 10}});
-        let mut pairs = Vec::new();
-        flatten(&case, "", &mut pairs);
-        let pairs: Vec<_> = pairs
-            .iter()
-            .map(|(key, value)| (key.as_str(), value.as_str()))
-            .collect();
-        assert_eq!(
-            pairs,
-            [
-                ("crack.edge", "left"),
-                ("crack.length", "56 nm"),
-                ("resolution.element", "10")
-            ]
-        );
-    }
 }

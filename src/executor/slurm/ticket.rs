@@ -4,6 +4,7 @@ use std::path::PathBuf;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
+use crate::durable;
 use crate::executor::{ExecutorError, Job};
 use crate::store::{self, Store, StoreError};
 
@@ -20,7 +21,7 @@ pub struct Ticket {
 impl Ticket {
     /// The ticket of a case; `None` if it was never handed over.
     pub fn read(store: &Store, id: &str) -> Option<Ticket> {
-        let text = fs::read_to_string(path(store, id)).ok()?;
+        let text = durable::read_to_string(&path(store, id)).ok()?;
         serde_json::from_str(&text).ok()
     }
 

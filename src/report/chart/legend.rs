@@ -1,4 +1,5 @@
-//! The names of curves above a chart, which grows by the rows that they take.
+//! The names of curves above a chart, which grows by the rows that they take. Where a sweep has many curves, it names
+//! colours and dashes instead of every curve; it is never higher than the plot.
 
 use plotters::element::DashedPathElement;
 use plotters::prelude::*;
@@ -6,6 +7,7 @@ use plotters::style::FontError;
 
 use super::{Curve, FINE, INK, TEXT, WIDTH};
 use crate::report::palette;
+use crate::report::sweep::Key;
 
 const LINE: i32 = 28 * FINE;
 const GAP: i32 = 7 * FINE;
@@ -13,19 +15,56 @@ const ROW: i32 = 24 * FINE;
 const LEFT: i32 = 78 * FINE;
 const RIGHT: i32 = (WIDTH as i32 - 10) * FINE;
 
-/// Where a line, a marker and a name of each curve stand, in rows.
-pub struct Legend<'a> {
-    entries: Vec<(&'a Curve, String, (i32, i32))>,
+/// More curves of a sweep than this are named by colour and dashes.
+const MOST_NAMED: usize = 6;
+
+/// The plot below has the height of this many rows.
+const MOST_ROWS: i32 = 12;
+
+/// Where a line, a marker and a name of each entry stand, in rows.
+pub struct Legend {
+    entries: Vec<(Curve, (i32, i32))>,
     rows: i32,
 }
 
-impl<'a> Legend<'a> {
-    pub fn of(curves: &'a [Curve]) -> Result<Self, FontError> {
+/// What is to be named: every curve, or what their colours and dashes stand for.
+fn named(curves: &[Curve]) -> Vec<Curve> {
+    let entry = |label: &str, style: usize| Curve {
+        label: label.to_owned(),
+        style,
+        ..Curve::default()
+    };
+    let keyed = curves.len() > MOST_NAMED && curves.iter().all(|curve| curve.key.is_some());
+    if !keyed {
+        // A curve that is alone needs no name, and has none.
+        let named = curves.iter().filter(|curve| !curve.label.is_empty());
+        return named.map(|curve| entry(&curve.label, curve.style)).collect();
+    }
+    let mut entries: Vec<Curve> = Vec::new();
+    let keys = || {
+        curves
+            .iter()
+            .filter_map(|curve| Some((curve.key.as_ref()?, Key::styles(curve.style))))
+    };
+    let colors = keys().map(|(key, [color, _])| (Some(&key.color), color));
+    let dashes = keys().map(|(key, [_, dash])| (key.dash.as_ref(), dash));
+    for (label, style) in colors.chain(dashes) {
+        if let Some(label) = label.filter(|label| entries.iter().all(|entry| entry.label != **label)) {
+            entries.push(entry(label, style));
+        }
+    }
+    entries
+}
+
+impl Legend {
+    pub fn of(curves: &[Curve]) -> Result<Self, FontError> {
         let font = ("sans-serif", TEXT * FINE).into_font();
         let length = |label: &str| font.box_size(label).map(|size| size.0 as i32);
         let (mut x, mut rows) = (LEFT, 1);
         let mut entries = Vec::new();
-        for curve in curves {
+        let named = named(curves);
+        let number = named.len();
+        for (place, mut curve) in named.into_iter().enumerate() {
             let mut label = curve.label.clone();
             let mut kept = label.chars().count();
             while length(&label)? > RIGHT - LEFT - LINE - GAP && kept > 2 {
@@ -36,7 +75,14 @@ impl<'a> Legend<'a> {
             if x > LEFT && x + width > RIGHT {
                 (x, rows) = (LEFT, rows + 1);
             }
-            entries.push((curve, label, (x, ROW * 2 / 3 + (rows - 1) * ROW)));
+            curve.label = label;
+            let at = (x, ROW * 2 / 3 + (rows - 1) * ROW);
+            if rows == MOST_ROWS {
+                curve.label = format!("and {} more", number - place);
+                entries.push((curve, at));
+                break;
+            }
+            entries.push((curve, at));
             x += width;
         }
         Ok(Self { entries, rows })
@@ -57,7 +103,7 @@ impl<'a> Legend<'a> {
         root: &DrawingArea<DB, plotters::coord::Shift>,
     ) -> Result<(), DrawingAreaErrorKind<DB::ErrorType>> {
         let font = ("sans-serif", TEXT * FINE).into_font().color(&INK);
-        for (curve, label, (x, y)) in &self.entries {
+        for (curve, (x, y)) in &self.entries {
             let ends = [(*x, *y), (x + LINE, *y)];
             match palette::DASHES[curve.style % palette::DASHES.len()] {
                 None => root.draw(&PathElement::new(ends, curve.stroke()))?,
@@ -67,7 +113,7 @@ impl<'a> Legend<'a> {
             }
             root.draw(&curve.marker((x + LINE / 2, *y)))?;
             let place = (x + LINE + GAP, y - TEXT * FINE / 2);
-            root.draw(&Text::new(label.as_str(), place, font.clone()))?;
+            root.draw(&Text::new(curve.label.as_str(), place, font.clone()))?;
         }
         Ok(())
     }

@@ -16,7 +16,7 @@ const DOT: i32 = 4 * FINE;
 #[derive(Default)]
 pub struct Scatter {
     pub points: Vec<Point>,
-    /// What is drawn as an upright line at its cost, such as the reference itself.
+    /// What has a cost and no error, such as the reference itself: drawn at the lower edge.
     pub marks: Vec<Mark>,
 }
 
@@ -50,7 +50,10 @@ impl Scatter {
         let costs = self.points.iter().map(|point| point.x);
         let across = span(costs.chain(self.marks.iter().map(|mark| mark.x)));
         let up = span(self.points.iter().map(|point| point.y));
-        let mut chart = framed(root, 12 * FINE).build_cartesian_2d(across.log_scale(), up.clone().log_scale())?;
+        let mut chart = framed(root, 12 * FINE).build_cartesian_2d(
+            across.clone().log_scale().with_key_points(ticks(&across)),
+            up.clone().log_scale().with_key_points(ticks(&up)),
+        )?;
         chart
             .configure_mesh()
             .x_labels(6)
@@ -66,15 +69,6 @@ impl Scatter {
             .x_desc(x)
             .y_desc(y)
             .draw()?;
-        for (level, mark) in self.marks.iter().enumerate() {
-            let line = [(mark.x, up.start), (mark.x, up.end)];
-            let stroke = mark.group.map_or(INK, color).stroke_width(2 * FINE as u32);
-            chart.draw_series(DashedLineSeries::new(line, 6 * FINE, 4 * FINE, stroke))?;
-            // Names of marks that stand close are on lines of their own.
-            let below = (level as i32 % 4) * TEXT * FINE;
-            let name = Text::new(mark.name.clone(), (5 * FINE, below), small.clone());
-            chart.draw_series([EmptyElement::at((mark.x, up.end)) + name])?;
-        }
         let groups = self
             .points
             .iter()
@@ -87,17 +81,31 @@ impl Scatter {
             best.sort_by(|a, b| a.0.total_cmp(&b.0));
             chart.draw_series([PathElement::new(best, color(group).stroke_width(2 * FINE as u32))])?;
         }
-        let dots: Vec<(i32, i32)> = self
+        let floor = |mark: &Mark| (mark.x, up.start);
+        let at = self
             .points
             .iter()
-            .map(|point| chart.backend_coord(&(point.x, point.y)))
-            .collect();
+            .map(|point| (point.x, point.y))
+            .chain(self.marks.iter().map(floor));
+        let dots: Vec<(i32, i32)> = at.map(|place| chart.backend_coord(&place)).collect();
+        let names = self
+            .points
+            .iter()
+            .map(|point| &point.name)
+            .chain(self.marks.iter().map(|mark| &mark.name));
         let mut sizes = Vec::new();
-        for point in &self.points {
-            let (width, height) = root.estimate_text_size(&point.name, &small)?;
+        for name in names {
+            let (width, height) = root.estimate_text_size(name, &small)?;
             sizes.push((width as i32, height as i32));
         }
         let places = labels::places(&dots, &sizes, DOT);
+        for (mark, place) in self.marks.iter().zip(&places[self.points.len()..]) {
+            let size = DOT * 3 / 2;
+            let corners = [(0, -size), (size, 0), (0, size), (-size, 0)];
+            let diamond = Polygon::new(corners, mark.group.map_or(INK, color).filled());
+            let name = Text::new(mark.name.clone(), *place, small.clone());
+            chart.draw_series([EmptyElement::at(floor(mark)) + diamond + name])?;
+        }
         for (point, place) in self.points.iter().zip(places) {
             let style = match point.is_best {
                 true => color(point.group).filled(),
@@ -126,9 +134,34 @@ fn color(group: usize) -> RGBColor {
     RGBColor(red, green, blue)
 }
 
+/// 1, 2 and 5 of every decade within a range; of more than three decades the powers of ten alone.
+fn ticks(range: &std::ops::Range<f64>) -> Vec<f64> {
+    let decades = range.start.log10().floor() as i32..=range.end.log10().ceil() as i32;
+    let steps: &[f64] = match range.end / range.start > 1e3 {
+        true => &[1.0],
+        false => &[1.0, 2.0, 5.0],
+    };
+    let all = decades.flat_map(|decade| steps.iter().map(move |step| step * 10f64.powi(decade)));
+    all.filter(|tick| range.contains(tick)).collect()
+}
+
 fn span(values: impl Iterator<Item = f64>) -> std::ops::Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, 0.0_f64), |(low, high), value| {
         (low.min(value), high.max(value))
     });
     low / ROOM..high * ROOM
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ticks_are_decades_with_their_twos_and_fives_where_there_is_room() {
+        let near = |found: Vec<f64>, wanted: &[f64]| {
+            found.len() == wanted.len() && found.iter().zip(wanted).all(|(a, b)| (a / b - 1.0).abs() < 1e-12)
+        };
+        assert!(near(ticks(&(0.3..12.0)), &[0.5, 1.0, 2.0, 5.0, 10.0]));
+        assert!(near(ticks(&(0.5e-2..2e2)), &[0.01, 0.1, 1.0, 10.0, 100.0]));
+    }
 }

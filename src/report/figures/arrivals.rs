@@ -32,11 +32,10 @@ fn style(arrival: &Arrival) -> usize {
 
 /// A chart for every case in which the crack starts, and leaves its plane, branches or meets a wave.
 pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
-    let cases = cases.iter().enumerate();
-    cases.filter_map(|(index, case)| chart(index, case)).collect()
+    cases.iter().filter_map(chart).collect()
 }
 
-fn chart(index: usize, case: &Analysed) -> Option<Chart> {
+fn chart(case: &Analysed) -> Option<Chart> {
     let start = case.findings.initiation?.time;
     let marks = [
         (LEAVES_PLANE, "leaves the plane", first_branch::leaves_after_start(case)),
@@ -61,7 +60,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
         label,
         style,
         points: vec![(time, 0.0), (time, top)],
-        spread: Vec::new(),
+        ..Curve::default()
     };
     let mut curves = vec![
         Curve {
@@ -69,6 +68,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
             style: 0,
             points: speed,
             spread,
+            ..Curve::default()
         },
         mark(START, "start".to_owned(), 0.0),
     ];
@@ -80,7 +80,7 @@ fn chart(index: usize, case: &Analysed) -> Option<Chart> {
     });
     curves.extend(waves);
     Some(Chart {
-        id: format!("arrivals-{index}"),
+        id: format!("arrivals-{}", case.file_part()),
         detail: false,
         table: "crack_speed",
         title: format!("Crack speed of {}, branching and returning waves", case.name()),

@@ -30,7 +30,7 @@ impl Canvas {
     pub fn new(view: [Range<f64>; 2]) -> Self {
         let inner = WIDTH - EDGE - LEFT - RIGHT;
         let [x, y] = [0, 1].map(|axis| view[axis].end - view[axis].start);
-        let height = (f64::from(inner) * y / x).clamp(60.0, TALLEST) as u32;
+        let height = (f64::from(inner) * y / x).clamp(97.0, TALLEST) as u32;
         Self { view, height }
     }
 
@@ -77,8 +77,8 @@ impl Canvas {
             .disable_mesh()
             .x_labels(8)
             .y_labels(5)
-            .set_all_tick_mark_size(8)
-            .axis_style(INK.stroke_width(2))
+            .set_all_tick_mark_size(13)
+            .axis_style(INK.stroke_width(3))
             .label_style(font.clone())
             .axis_desc_style(font)
             .x_label_formatter(&|value| numbers::tick(*value))

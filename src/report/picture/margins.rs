@@ -2,15 +2,15 @@
 
 use plotters::style::RGBColor;
 
-pub const WIDTH: u32 = 1240;
-pub const EDGE: u32 = 12;
+pub const WIDTH: u32 = 2000;
+pub const EDGE: u32 = 20;
 /// Room for the numbers and the name of the y axis.
-pub const LEFT: u32 = 110;
+pub const LEFT: u32 = 178;
 /// Room for the scale of colours.
-pub const RIGHT: u32 = 190;
-pub const TOP: u32 = 16;
+pub const RIGHT: u32 = 306;
+pub const TOP: u32 = 26;
 /// Room for the numbers and the name of the x axis.
-pub const BOTTOM: u32 = 84;
-pub const TALLEST: f64 = 1600.0;
-pub const TEXT: i32 = 27;
+pub const BOTTOM: u32 = 136;
+pub const TALLEST: f64 = 2580.0;
+pub const TEXT: i32 = 44;
 pub const INK: RGBColor = RGBColor(34, 34, 34);

@@ -21,11 +21,7 @@ const RING: i32 = 18;
 
 /// The paths of all cases whose bonds broke.
 pub fn gallery(cases: &[Analysed], folder: &Path) -> Result<Gallery, ReportError> {
-    let pictures: Vec<_> = cases
-        .par_iter()
-        .enumerate()
-        .map(|(index, case)| picture(index, case, folder))
-        .collect();
+    let pictures: Vec<_> = cases.par_iter().map(|case| picture(case, folder)).collect();
     let pictures = pictures
         .into_iter()
         .filter_map(Result::transpose)
@@ -40,7 +36,7 @@ pub fn gallery(cases: &[Analysed], folder: &Path) -> Result<Gallery, ReportError
     })
 }
 
-fn picture(index: usize, case: &Analysed, folder: &Path) -> Result<Option<Picture>, ReportError> {
+fn picture(case: &Analysed, folder: &Path) -> Result<Option<Picture>, ReportError> {
     let Some(setting) = case.result.setting.as_ref() else {
         return Ok(None);
     };
@@ -48,7 +44,7 @@ fn picture(index: usize, case: &Analysed, folder: &Path) -> Result<Option<Pictur
     let (Some(first), Some(last)) = (bonds.first(), bonds.last()) else {
         return Ok(None);
     };
-    let file = format!("path-{index}.png");
+    let file = format!("path-{}.png", case.file_part());
     let leaves = case.findings.leaves_plane.map(|leaves| (leaves.x, leaves.y));
     let png = draw(&file, &bonds, setting, leaves).map_err(|error| ReportError::Figure {
         figure: file.clone(),
@@ -92,13 +88,13 @@ fn draw(
     let half = 0.5 * setting.height;
     Canvas::new([0.0..setting.length, -half..half]).draw(figure, &scale, |chart, _| {
         let notch = setting.notch().map(|x| (x, 0.0));
-        chart.draw_series([PathElement::new(notch, INK.stroke_width(5))])?;
+        chart.draw_series([PathElement::new(notch, INK.stroke_width(8))])?;
         let mark = |bond: &BrokenBond| {
             let [red, green, blue] = scale.colour_of(bond.strain * PERCENT);
             Circle::new((bond.x, bond.y), BOND, RGBColor(red, green, blue).filled())
         };
         chart.draw_series(bonds.iter().map(mark))?;
-        chart.draw_series(leaves.map(|place| Circle::new(place, RING, INK.stroke_width(3))))?;
+        chart.draw_series(leaves.map(|place| Circle::new(place, RING, INK.stroke_width(5))))?;
         Ok(())
     })
 }

@@ -32,22 +32,25 @@ impl Scale {
         height: i32,
     ) -> Result<(), DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>> {
         let font = ("sans-serif", TEXT).into_font().color(&INK);
-        let (left, right, top) = ((WIDTH - RIGHT) as i32 + 28, (WIDTH - RIGHT) as i32 + 60, TOP as i32);
-        let (from, to) = (top + 52, top + height - TEXT / 2);
+        let (left, right, top) = ((WIDTH - RIGHT) as i32 + 45, (WIDTH - RIGHT) as i32 + 97, TOP as i32);
+        let (from, to) = (top + 84, top + height - TEXT / 2);
         for row in from..to {
             let place = 1.0 - f64::from(row - from) / f64::from((to - from - 1).max(1));
             let [red, green, blue] = (self.colour)(place);
             let colour = RGBColor(red, green, blue);
             root.draw(&PathElement::new([(left, row), (right, row)], colour))?;
         }
-        root.draw(&Text::new(self.label, (left - 6, top - 2), font.clone()))?;
+        root.draw(&Text::new(self.label, (left - 10, top - 3), font.clone()))?;
         let centred = font.pos(Pos::new(HPos::Left, VPos::Center));
         let [low, high] = self.ends;
         for place in [0.0, 0.25, 0.5, 0.75, 1.0] {
             let row = to - 1 - (f64::from(to - from - 1) * place) as i32;
-            root.draw(&PathElement::new([(right, row), (right + 7, row)], INK.stroke_width(2)))?;
+            root.draw(&PathElement::new(
+                [(right, row), (right + 11, row)],
+                INK.stroke_width(3),
+            ))?;
             let number = numbers::tick(numbers::round_significant(low + (high - low) * place, 3));
-            root.draw(&Text::new(number, (right + 14, row), centred.clone()))?;
+            root.draw(&Text::new(number, (right + 22, row), centred.clone()))?;
         }
         Ok(())
     }

@@ -3,10 +3,14 @@
 use polars::prelude::Column;
 
 use super::wave_arrival::{path_name, wave_name};
+use crate::analysis::crack::leaving::LEAVES_PLANE_SPACINGS;
+use crate::analysis::crack::{SPUR_ELEMENTS, SPUR_SPACINGS};
 use crate::analysis::history::LeavesPlane;
+use crate::analysis::initiation::ARREST_SPEED;
 use crate::analysis::waves::Arrival;
 use crate::plan::{self, Comparison};
 use crate::report::Analysed;
+use crate::report::numbers::significant;
 use crate::report::table::Rows;
 
 /// Time of the first branch after the crack has started, ps.
@@ -82,4 +86,90 @@ pub fn leaves_after_start(case: &Analysed) -> Option<f64> {
 
 fn after(case: &Analysed, time: fn(LeavesPlane) -> f64) -> Option<f64> {
     Some(time(case.findings.leaves_plane?) - case.findings.initiation?.time)
+}
+
+/// The first branches beside those of the source.
+pub fn agreement(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    beside_the_pictures(cases, comparisons, after_start, "no branch up to the end of the run")
+}
+
+/// The source calls branching what it sees in its pictures, and a crack that turns aside looks alike there.
+pub fn leaving_the_plane(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    beside_the_pictures(
+        cases,
+        comparisons,
+        leaves_after_start,
+        "in its plane up to the end of the run",
+    )
+}
+
+/// When something happens to each crack, ps after its start, beside the pictures between which the source saw it branch.
+fn beside_the_pictures(
+    cases: &[Analysed],
+    comparisons: &[Comparison],
+    after_start: impl Fn(&Analysed) -> Option<f64>,
+    never: &str,
+) -> Option<String> {
+    let line = |case: &Analysed| {
+        let [Some(from), Some(to)] = reference(case, comparisons) else {
+            return None;
+        };
+        case.findings.initiation?;
+        let source = format!("the source between {from:.0} and {to:.0} ps");
+        Some(match after_start(case) {
+            Some(time) => {
+                let order = match time {
+                    _ if time < from => "earlier than",
+                    _ if time > to => "later than",
+                    _ => "as in",
+                };
+                let time = significant(time, 3);
+                format!("{}: {time} ps after the crack starts, {order} {source}", case.name())
+            }
+            None => format!("{}: {never}; {source}", case.name()),
+        })
+    };
+    let lines: Vec<String> = cases.iter().filter_map(line).collect();
+    (!lines.is_empty()).then(|| format!("{}.", lines.join("; ")))
+}
+
+/// The waves that are back at the tip when it branches.
+pub fn waves(cases: &[Analysed]) -> Option<String> {
+    let line = |case: &Analysed| {
+        after_start(case)?;
+        let waves = waves_before(case);
+        Some(match waves.is_empty() {
+            true => format!("{}: none", case.name()),
+            false => format!("{}: {}", case.name(), waves.join(", ")),
+        })
+    };
+    let lines: Vec<String> = cases.iter().filter_map(line).collect();
+    (!lines.is_empty()).then(|| {
+        format!(
+            "By their speeds and the path of the tip are back at it by then: {}.",
+            lines.join("; ")
+        )
+    })
+}
+
+/// What branching and leaving the plane mean here.
+pub fn method() -> Vec<(&'static str, String)> {
+    vec![
+        (
+            "Leaves the plane",
+            format!(
+                "When a broken path from the notch first reaches {LEAVES_PLANE_SPACINGS} spacings from the crack plane, and where; beside \
+                 it when the first bond of that path off the plane broke. A crack that joins one that has opened ahead of it \
+                 is told in the table joins: that is neither a speed nor a branch."
+            ),
+        ),
+        (
+            "Branches",
+            format!(
+                "Side paths of at least {SPUR_SPACINGS} spacings (and {SPUR_ELEMENTS} element edges) that end at least \
+                 half of that away from the others. The angle is that of their first stretch, from the x axis. \
+                 Arrested means slower than {ARREST_SPEED} c_R over the last such length."
+            ),
+        ),
+    ]
 }

@@ -2,11 +2,15 @@
 
 use polars::prelude::Column;
 
-use crate::analysis::series::{Probe, Setting};
-use crate::analysis::stress_intensity::Refusal;
+use crate::analysis::series::{Probe, RINGS, Setting};
 use crate::analysis::stress_intensity::handbook::{self, Grips};
+use crate::analysis::stress_intensity::{
+    FROM_ELEMENTS, FROM_SPACINGS, LEAST_GRIFFITH_SHARE, MOST_CORRECTION, MOST_ERROR_SHARE, MOST_RING_SHARE,
+    RING_CLEAR_SHARE, RING_ELEMENTS, RING_SPACINGS, Refusal, TO_SHARE,
+};
 use crate::plan::{self, Comparison};
 use crate::report::Analysed;
+use crate::report::numbers::{mean, signed_percent, significant};
 use crate::report::table::Rows;
 use crate::report::units::MEGAPASCAL_ROOT_METRE;
 
@@ -127,4 +131,117 @@ pub fn columns(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Column> {
     let reasons: Vec<Option<String>> = rows.0.iter().map(|case| reasons(case)).collect();
     columns.push(Column::new("reasons".into(), reasons));
     columns
+}
+
+/// Which definition of K comes nearest to the source's values.
+pub fn agreement(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    let offs = |definition: Definition| -> Vec<f64> {
+        let pairs = cases
+            .iter()
+            .filter_map(|case| definition.value(case).zip(reference(case, comparisons)));
+        pairs.map(|(own, other)| own / other - 1.0).collect()
+    };
+    let mut found: Vec<(Definition, Vec<f64>)> = Definition::ALL
+        .map(|definition| (definition, offs(definition)))
+        .into_iter()
+        .filter(|(_, offs)| !offs.is_empty())
+        .collect();
+    let size = |offs: &[f64]| mean(&offs.iter().map(|off| off.abs()).collect::<Vec<f64>>());
+    found.sort_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
+    let (nearest, others) = found.split_first()?;
+    let others: Vec<String> = others
+        .iter()
+        .map(|(definition, offs)| format!("{} by {}", definition.words(), signed_percent(mean(offs))))
+        .collect();
+    let mut text = format!(
+        "Nearest to the source comes {}, off by {} % on average ({} with sign).",
+        nearest.0.words(),
+        significant(100.0 * size(&nearest.1), 2),
+        signed_percent(mean(&nearest.1))
+    );
+    if !others.is_empty() {
+        text.push_str(&format!(" With sign and on average are off {}.", others.join(", ")));
+    }
+    text.extend(one_factor(cases, comparisons));
+    Some(text)
+}
+
+/// Factors alike within this share are one factor.
+const ONE_FACTOR: f64 = 0.03;
+
+/// Whether one factor takes K near the tip to the source's value in all cases, as it does where only the definitions differ.
+fn one_factor(cases: &[Analysed], comparisons: &[Comparison]) -> Option<String> {
+    let factor = |case| Some(reference(case, comparisons)? / Definition::NearTip.value(case)?);
+    let factors: Vec<f64> = cases.iter().filter_map(factor).collect();
+    let mean = mean(&factors);
+    let is_one = factors.len() > 2 && factors.iter().all(|factor| (factor / mean - 1.0).abs() < ONE_FACTOR);
+    is_one.then(|| {
+        format!(
+            " The source's value is {} times that of the field near the tip in all {} cases, within {} %: the loads are the \
+             same, and the definitions of K differ by a factor.",
+            significant(mean, 3),
+            factors.len(),
+            significant(100.0 * ONE_FACTOR, 1)
+        )
+    })
+}
+
+/// What each definition means here, and when it is refused.
+pub fn method() -> Vec<(&'static str, String)> {
+    let percent = |share: f64| significant(share * 100.0, 3);
+    vec![
+        (
+            "K near the tip",
+            format!(
+                "Least-squares fit of σyy √(2πr) = K (1 + c r) at the last probe before initiation, from r = \
+                 {FROM_SPACINGS} spacings (at least {FROM_ELEMENTS} element edges) to {} % of the crack length, the \
+                 ligament or the height, whichever is smallest; ± is the standard error of the fit alone. Refused where K is not positive, where \
+                 that error is above {} % of K, and where c r is above {MOST_CORRECTION} at the end of the range.",
+                percent(TO_SHARE),
+                percent(MOST_ERROR_SHARE)
+            ),
+        ),
+        (
+            "K of the J-integral",
+            format!(
+                "√(EJ) at the same probe, J being the energy that the field around the tip would give for its advance: \
+                 the domain integral with finite strain and inertia, in {RINGS} rings side by side that reach to at most \
+                 {RING_SPACINGS} spacings (at least {RING_ELEMENTS} element edges), and to at most {} % of the way to the nearest \
+                 edge or grip. The value is the mean of the rings; they agree to half of the range between \
+                 them, which is no uncertainty of K. Refused where they agree to no better than {} %, and below {} % of Griffith's K: \
+                 a crack that sets out gets what its surfaces cost. Waves that pass the tip let J itself swing by some percent \
+                 within picoseconds, in all rings alike. Absent where there is no room for rings.",
+                percent(RING_CLEAR_SHARE),
+                percent(MOST_RING_SHARE),
+                percent(LEAST_GRIFFITH_SHARE)
+            ),
+        ),
+        (
+            "K of Griffith",
+            "√(2γE) over the thickness, with the energy that the potential and its treatment at the cutoff need to \
+             part a close-packed row, and the two-dimensional Young's modulus."
+                .to_owned(),
+        ),
+        (
+            "K of the energy balance",
+            "√(E C H / 2) times the strain at the same probe, C being the stiffness of the uncracked slab and H its height: what \
+             the slab holds far ahead of a long crack and gives up for its advance. Exact where crack and ligament are longer \
+             than the height; a short crack has less."
+                .to_owned(),
+        ),
+        (
+            "K between grips",
+            "F E ε √(πa) at the same probe, with the factor F of an edge crack between grips that move, from the static release \
+             of energy of the lattice (`make verify`, single edge), linear between the geometries computed. Waves that the \
+             loading itself has made are not in it."
+                .to_owned(),
+        ),
+        (
+            "K under stress",
+            "F σ √(πa) with the handbook factor of an edge crack in a long strip under uniform stress (Tada), put to the stress on \
+             the grips at the same probe: what one gets who takes moving grips for a stress. Up to several times too large, \
+             because grips that stand still take load off a crack that is long for their distance."
+                .to_owned(),
+        ),
+    ]
 }

@@ -53,6 +53,9 @@ pub fn are_one_computation(case: &CaseResult, other: &CaseResult) -> bool {
     computation(case).is_some() && computation(case) == computation(other) && !is_of_ranks
 }
 
+/// More cases than this with one specimen are counted.
+const MOST_NAMED: usize = 4;
+
 /// Cases that are one computation, each with the first of its kind, and sizes that are not what was asked for.
 pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
     let mut notes = Vec::new();
@@ -73,7 +76,20 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         );
         notes.push(("One computation under several names", text));
     }
-    let off: Vec<String> = cases.iter().filter_map(unlike_asked).collect();
+    let mut off: Vec<(String, Vec<&str>)> = Vec::new();
+    for case in cases {
+        let Some(told) = unlike_asked(case) else { continue };
+        match off.iter_mut().find(|(known, _)| *known == told) {
+            Some((_, names)) => names.push(case.name()),
+            None => off.push((told, vec![case.name()])),
+        }
+    }
+    let of = |(told, names): &(String, Vec<&str>)| match names.len() {
+        number if number == cases.len() && number > 1 => format!("in all cases {told}"),
+        number if number > MOST_NAMED => format!("in {number} cases, {} among them, {told}", names[0]),
+        _ => format!("in {} {told}", names.join(", ")),
+    };
+    let off: Vec<String> = off.iter().map(of).collect();
     if !off.is_empty() {
         let text = format!(
             "Laid out of whole elements, {}. All sizes are in table specimen.",
@@ -84,7 +100,7 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
     notes
 }
 
-/// `in a the length is 112.5 nm instead of 114 nm`
+/// `the length is 112.5 nm instead of 114 nm`
 fn unlike_asked(case: &Analysed) -> Option<String> {
     let specimen = case.result.specimen.as_ref()?;
     let mut sizes = vec![
@@ -103,5 +119,5 @@ fn unlike_asked(case: &Analysed) -> Option<String> {
             format!("the {name} is {actual} nm instead of {asked} nm ({percent} % off)")
         })
         .collect();
-    (!told.is_empty()).then(|| format!("in {} {}", case.name(), told.join(" and ")))
+    (!told.is_empty()).then(|| told.join(" and "))
 }

@@ -61,7 +61,7 @@ impl Quantity {
         }
     }
 
-    fn words(self) -> &'static str {
+    pub fn words(self) -> &'static str {
         match self {
             Self::Stress => "stress before initiation",
             Self::Initiation => "strain at initiation",
@@ -142,40 +142,38 @@ pub fn rows<'a>(cases: &'a [Analysed<'a>]) -> Vec<Row<'a>> {
 /// A chart for each quantity in which some case differs.
 pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
     let rows = rows(cases);
-    let chart =
-        |quantity: Quantity| {
-            let points: Vec<Point> = rows
-                .iter()
-                .filter_map(|row| {
-                    Some(Point {
-                        name: row.number.to_string(),
-                        x: row.cost,
-                        y: row.resolved_percent(quantity)?,
-                        group: row.group(&rows),
-                        is_best: row.is_best(&rows, quantity),
-                    })
+    let chart = |quantity: Quantity| {
+        let points: Vec<Point> = rows
+            .iter()
+            .filter_map(|row| {
+                Some(Point {
+                    name: row.case.name().to_owned(),
+                    x: row.cost,
+                    y: row.resolved_percent(quantity)?,
+                    group: row.group(&rows),
+                    is_best: row.is_best(&rows, quantity),
                 })
-                .collect();
-            (!points.is_empty()).then(|| Chart {
+            })
+            .collect();
+        (!points.is_empty()).then(|| Chart {
             id: format!("speed-against-error-{}", quantity.column().trim_end_matches("_error").replace('_', "-")),
             detail: false,
             table: "speed_against_error",
             title: format!("Speed against error: {}", quantity.words()),
             caption: format!(
-                "Error of the {} against the cost of a case; the numbers are those of the table. Filled and joined are \
-                 the cases that no other one beats in both. Errors that the probes cannot tell are drawn at \
-                 what they can. Each material has its own colour and reference. \
-                 Upright lines: what the reference itself costs, and other programs.",
+                "Error of the {} against the cost of a case. Filled and joined are the cases that no other one beats in \
+                 both. Errors that the probes cannot tell are drawn at what they can. Each material has its own colour and \
+                 reference. Diamonds at the lower edge: what the reference itself costs, and other programs.",
                 quantity.words()
             ),
-            x: "cost (core-seconds a simulated ps)".to_owned(),
+            x: "cost (core-seconds per simulated ps)".to_owned(),
             y: format!("error of {} (%)", quantity.words()),
             content: Content::Points(Scatter {
                 points,
                 marks: marks(&rows, comparisons),
             }),
         })
-        };
+    };
     Quantity::ALL.into_iter().filter_map(chart).collect()
 }
 

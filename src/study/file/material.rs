@@ -7,6 +7,7 @@ use crate::study::{
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+/// Potential, mass and thickness.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Material {
@@ -76,6 +77,7 @@ pub enum AtCutoff {
     Smooth(Smooth),
 }
 
+/// The end of a potential that goes to zero smoothly.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Smooth {

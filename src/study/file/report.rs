@@ -1,11 +1,12 @@
 use super::super::{
     named::Named,
-    quantity::{Fraction, Time},
+    quantity::{Fraction, Length, Time},
     reader::Given,
 };
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+/// What the report shows beside its tables and figures.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Report {
@@ -21,6 +22,16 @@ pub struct Report {
     pub beside: Given<Vec<Given<String>>>,
     /// Cases of this study to be set side by side, by a heading such as `time step`.
     pub side_by_side: Given<Named<SideBySideFile>>,
+    /// How the figures are drawn as files.
+    pub figures: Given<Figures>,
+}
+
+/// The line figures as SVG files, for a paper.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Figures {
+    /// Width of each, such as 86 mm, the column of a journal; 600 pixels where left out.
+    pub width: Given<Length>,
 }
 
 /// The pictures nearest to these strains are shown, and all of the first case one after the other.
@@ -29,6 +40,7 @@ pub struct Report {
 pub struct Stages {
     /// Names of the cases.
     pub cases: Given<Vec<Given<String>>>,
+    /// Nominal strains at which they are shown.
     pub strains: Given<Vec<Given<Fraction>>>,
 }
 

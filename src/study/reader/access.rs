@@ -2,6 +2,7 @@
 
 use super::{
     Fault,
+    example::in_full,
     position::{Reader, shortened},
 };
 use crate::study::{
@@ -181,7 +182,7 @@ impl<'de> de::VariantAccess<'de> for Variant<'de> {
                 self.reader.node.place,
                 format!("`{}` needs values of its own", self.name),
             )
-            .help(format!("write `{}: {{...}}`", self.name))),
+            .help(format!("write for example `{}`", in_full(self.name)))),
         }
     }
 

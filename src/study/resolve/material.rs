@@ -99,10 +99,26 @@ impl Check<'_> {
             self.add(Finding::at(place, message).help(format!("write a cutoff such as {}", about(1.33 * minimum))));
             return None;
         }
+        let at_cutoff = at_cutoff?;
+        if let AtCutoff::Smooth { from } = at_cutoff
+            && from <= minimum
+        {
+            let message = format!(
+                "`smooth` begins at {}, where the bonds of the crystal are at rest ({}) or shorter: it would change all of them",
+                nanometres(from),
+                about(minimum)
+            );
+            let begin = about(0.5 * (minimum + cutoff));
+            self.add(
+                Finding::at(beginning(given).unwrap_or(place), message)
+                    .help(format!("let it begin beyond, such as `from: {begin}`")),
+            );
+            return None;
+        }
         Some(Potential {
             shape,
             cutoff,
-            at_cutoff: at_cutoff?,
+            at_cutoff,
         })
     }
 
@@ -167,6 +183,19 @@ impl Check<'_> {
             return (None, None);
         }
         (to, from.map(|(from, _)| AtCutoff::Smooth { from }))
+    }
+}
+
+/// Where a smooth end says from where on.
+fn beginning(potential: &file::Potential) -> Option<Place> {
+    let at_cutoff = match potential {
+        file::Potential::LennardJones(values) => &values.at_cutoff,
+        file::Potential::Morse(values) => &values.at_cutoff,
+        file::Potential::HarmonicBond(values) => &values.at_cutoff,
+    };
+    match at_cutoff.right()? {
+        file::AtCutoff::Smooth(smooth) => smooth.from.place(),
+        file::AtCutoff::Truncated | file::AtCutoff::Shifted => None,
     }
 }
 

@@ -38,7 +38,7 @@ impl Check<'_> {
     fn element(&self, given: &Given<u32>, section: Place, path: &str) -> Option<At<u32>> {
         let (element, place) = self.need(given, section, path, "10")?;
         if matches!(element, 0 | 2) {
-            let message = format!("an element of {element} atoms an edge does not exist");
+            let message = format!("an element of {element} atoms per edge does not exist");
             self.add(Finding::at(place, message).help("write 1 for single atoms, or 3 or more for triangles"));
             return None;
         }
@@ -77,7 +77,7 @@ impl Check<'_> {
             && fine > coarse
         {
             let message = format!(
-                "the elements of this region ({fine} atoms an edge) are coarser than those around it ({coarse})"
+                "the elements of this region ({fine} atoms per edge) are coarser than those around it ({coarse})"
             );
             self.add(
                 Finding::at(at, message)

@@ -176,6 +176,13 @@ impl Check<'_> {
             self.add(Finding::at(place, message).help("start just below the strain at which the crack starts"));
             return None;
         }
+        if start.value < 0.0 {
+            let message = format!(
+                "a start at a strain of {start} is compression, in which the crystal may fold and the faces of a crack touch"
+            );
+            self.add(Finding::at(place, message).help("start at 0 % or above, such as 0.4 %: the grips only part"));
+            return None;
+        }
         let end = until.right().and_then(|until| match until.strain {
             Given::Right(end, place) => Some((end, place)),
             _ => None,
@@ -334,6 +341,19 @@ impl Check<'_> {
         Some(Probes {
             every: every.map_or(defaults::PROBES_EVERY, |(every, _)| every),
         })
+    }
+
+    /// What tells of a crack alone must not be asked of a case without one.
+    pub fn observes_no_crack(&self, given: &Given<Vec<Given<Observe>>>) {
+        for item in given.right().into_iter().flatten() {
+            let (what, place) = match item {
+                Given::Right(Observe::Crack, place) => ("crack", place),
+                Given::Right(Observe::WaveArrival, place) => ("wave-arrival", place),
+                _ => continue,
+            };
+            let message = format!("`{what}` tells of a crack, and the case has none");
+            self.add(Finding::at(*place, message).help("leave it out, or give a `crack`"));
+        }
     }
 
     pub fn snapshots(&self, given: &Given<Vec<Given<Observe>>>) -> Option<Snapshots> {

@@ -69,7 +69,7 @@ impl Check<'_> {
     /// As large as the elements where nothing is said, so that they leave nothing over.
     fn block(&self, given: &Given<u32>, element: Option<u32>) -> Option<u32> {
         if let Given::Right(block @ 0..3, place) = given {
-            let message = format!("`specimen.block` must be at least 3 atoms an edge, and {block} is not");
+            let message = format!("`specimen.block` must be at least 3 atoms per edge, and {block} is not");
             self.add(Finding::at(*place, message).help("leave it out for that of the elements"));
             return None;
         }

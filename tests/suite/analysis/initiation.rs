@@ -184,7 +184,7 @@ fn the_constants_of_the_rule_are_those_that_it_tells() {
 
 #[test]
 fn a_tip_that_comes_back_to_where_it_stood_has_not_left_for_good() {
-    // As elements of forty atoms an edge do: ten spacings early, then to and fro.
+    // As elements of forty atoms per edge do: ten spacings early, then to and fro.
     let course = [
         (0.014_8, 4.0),
         (0.016_2, 10.0),

@@ -267,17 +267,6 @@ fn a_reader_that_leaves_early_is_no_panic() {
 }
 
 #[test]
-fn new_writes_a_study_that_is_right_and_never_overwrites() {
-    let place = Workspace::new();
-    place.cgaft(&["new", "my-crack"]).succeeded();
-    place.cgaft(&["study", "check", "my-crack.yaml"]).succeeded();
-    let again = place.cgaft(&["new", "my-crack"]);
-    assert_eq!(again.code, Some(2));
-    assert!(again.stderr.contains("exists already"), "{}", again.stderr);
-    assert_eq!(place.cgaft(&["new", "../crack"]).code, Some(2));
-}
-
-#[test]
 fn the_small_commands_answer() {
     let place = Workspace::new();
     let schema = place.cgaft(&["schema"]).succeeded().json();
@@ -359,7 +348,7 @@ fn check_warns_of_regions_that_change_nothing_or_all_and_of_an_unlikely_thicknes
         |half_width: &str| format!("{{element: 10, regions: [{{band: {{half-width: {half_width}, element: 1}}}}]}}");
     let wide = check("resolution: {element: 10}", &format!("resolution: {}", band("1 mm")));
     assert!(
-        wide.contains("no element of 10 atoms an edge is left beside the regions, which take the whole specimen"),
+        wide.contains("no element of 10 atoms per edge is left beside the regions, which take the whole specimen"),
         "{wide}"
     );
     let thin = check("resolution: {element: 10}", &format!("resolution: {}", band("1e-5 nm")));

@@ -109,6 +109,32 @@ fn more_ranks_than_cores_are_told_and_started() {
 }
 
 #[test]
+fn plan_and_check_warn_of_ranks_that_the_solver_cannot_start() {
+    let ranks = Ranks::new();
+    let without = "was built without MPI, so that it computes with threads but not with 3 ranks: `make build`";
+    for (command, arguments) in [("plan", &[][..]), ("check", &[]), ("plan", &["--on", "slurm"])] {
+        let mut blind = ranks.command(command, arguments);
+        let told = said(blind.env("FAKE_FEATURES", "none")).succeeded().stdout;
+        assert!(
+            told.contains("warning: ") && told.contains(without),
+            "{command}: {told}"
+        );
+        let mut blind = ranks.command(command, &[arguments, &["--json"]].concat());
+        let json = said(blind.env("FAKE_FEATURES", "none")).succeeded().json();
+        let warnings = json["warnings"].as_array().unwrap();
+        assert!(
+            warnings.iter().any(|told| told.as_str().unwrap().contains(without)),
+            "{json}"
+        );
+        let told = ranks.cgaft(command, arguments).succeeded().stdout;
+        assert!(!told.contains("without MPI"), "{command}: {told}");
+    }
+    let mut one = ranks.command("plan", &["--ranks", "1"]);
+    let told = said(one.env("FAKE_FEATURES", "none")).succeeded().stdout;
+    assert!(!told.contains("without MPI"), "{told}");
+}
+
+#[test]
 fn the_plan_shows_mpirun() {
     let ranks = Ranks::new();
     let plan = ranks

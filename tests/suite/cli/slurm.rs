@@ -140,6 +140,62 @@ fn the_plan_shows_the_script_that_is_submitted() {
     assert!(cluster.place.starts().iter().all(|start| start.ends_with("threads=4")));
 }
 
+/// A folder whose name has a meaning to bash and to sbatch in every place.
+const AWKWARD: &str = "it's \"my\" $HOME; rm #1 %A \\ end";
+
+#[test]
+fn a_whole_script_is_shell_and_holds_the_results_folder_as_it_is() {
+    let cluster = Cluster::new();
+    let plan = cluster.cgaft("plan", &["--on", "slurm", "--json", "--results", AWKWARD]);
+    let script = plan.succeeded().json()["scripts"][0].as_str().unwrap().to_owned();
+    let place = fs::canonicalize(cluster.place.path("")).unwrap().display().to_string();
+    let plain = |letter: char| letter.is_ascii_alphanumeric() || "/-_.".contains(letter);
+    assert!(place.chars().all(plain), "{place} needs quotes itself");
+
+    let options: Vec<&str> = script.lines().filter(|line| line.starts_with("#SBATCH")).collect();
+    let output =
+        format!("#SBATCH \"--output={place}/it's \\\"my\\\" $HOME; rm #1 %%A \\\\ end/slab/.slurm/%A_%a.out\"");
+    assert_eq!(
+        options,
+        [
+            "#SBATCH --job-name=cgaft-slab",
+            "#SBATCH --array=0-2",
+            "#SBATCH --nodes=1",
+            "#SBATCH --ntasks=1",
+            "#SBATCH --cpus-per-task=1",
+            "#SBATCH --signal=B:USR1@120",
+            "#SBATCH --requeue",
+            "#SBATCH --open-mode=append",
+            &output,
+        ]
+    );
+
+    let file = cluster.place.path("job.sh");
+    fs::write(&file, &script).unwrap();
+    let checked = Command::new("bash").arg("-n").arg(&file).output().unwrap();
+    assert!(checked.status.success(), "{}", String::from_utf8_lossy(&checked.stderr));
+
+    // The words that bash hands over, one a line.
+    let told = script.replace("\nexec ", "\nprintf '%s\\n' ");
+    let words = Command::new("bash")
+        .arg("-c")
+        .arg(&told)
+        .env("SLURM_ARRAY_TASK_ID", "1")
+        .output()
+        .unwrap();
+    let words = String::from_utf8(words.stdout).unwrap();
+    let words: Vec<&str> = words.lines().collect();
+    let second = script
+        .lines()
+        .find_map(|line| line.strip_suffix(" # B"))
+        .unwrap()
+        .trim();
+    assert_eq!(
+        words[1..],
+        ["slurm-job", "--results", &format!("{place}/{AWKWARD}"), "slab", second]
+    );
+}
+
 #[test]
 fn cases_with_other_resources_go_into_an_array_of_their_own() {
     let cluster = Cluster::new();

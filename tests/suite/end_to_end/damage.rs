@@ -5,15 +5,15 @@ use std::path::Path;
 
 use cgaft::store::{State, Store};
 
-use super::{Workspace, assert_same_results};
-use crate::suite::specimens::Noise;
+use super::{PATIENCE, Program, STUDY, Workspace, assert_same_results, files, send, wait_for};
+use crate::suite::specimens::{Noise, put_in_the_place_of};
 
 /// Another bit in the middle of a file, whose size stays.
 fn flip_a_bit(file: &Path) {
     let mut bytes = fs::read(file).unwrap();
     let middle = bytes.len() / 2;
     bytes[middle] ^= 1;
-    fs::write(file, bytes).unwrap();
+    put_in_the_place_of(file, bytes);
 }
 
 #[test]
@@ -70,7 +70,7 @@ fn a_manifest_that_was_changed_is_told_at_every_look() {
     let length = text.find(" nm\"").expect("a length of the case");
     let mut bytes = text.into_bytes();
     bytes[length + 1] = b'f';
-    fs::write(&manifest, bytes).unwrap();
+    put_in_the_place_of(&manifest, bytes);
     assert_eq!(place.states()[0], "corrupt");
     let again = place.cgaft("run", &["--only", "coarse"]).succeeded();
     assert!(
@@ -83,9 +83,20 @@ fn a_manifest_that_was_changed_is_told_at_every_look() {
     assert_eq!(place.states()[0], "done");
 }
 
+/// So many bits of each file are turned, one at a time.
+const FLIPS: usize = 200;
+
+/// A file with one bit turned, which `noise` chooses, and the place of that bit.
+fn with_a_flip(whole: &[u8], noise: &mut Noise) -> (Vec<u8>, usize) {
+    let bits = 8 * whole.len();
+    let place = (0.5 * (noise.next() + 1.0) * bits as f64) as usize % bits;
+    let mut bytes = whole.to_vec();
+    bytes[place / 8] ^= 1 << (place % 8);
+    (bytes, place)
+}
+
 #[test]
 fn any_flipped_bit_of_any_file_of_a_run_is_found() {
-    const FLIPS: usize = 200;
     let place = Workspace::new();
     place.cgaft("run", &["--only", "coarse"]).succeeded();
     let store = Store::open(&place.path("results"), "slab").unwrap();
@@ -107,10 +118,8 @@ fn any_flipped_bit_of_any_file_of_a_run_is_found() {
     for file in files {
         let whole = fs::read(&file).unwrap();
         for _ in 0..FLIPS {
-            let place = (0.5 * (noise.next() + 1.0) * (8 * whole.len()) as f64) as usize % (8 * whole.len());
-            let mut bytes = whole.clone();
-            bytes[place / 8] ^= 1 << (place % 8);
-            fs::write(&file, bytes).unwrap();
+            let (bytes, place) = with_a_flip(&whole, &mut noise);
+            put_in_the_place_of(&file, bytes);
             let state = verified();
             assert!(
                 matches!(state, State::Corrupt { .. }),
@@ -118,7 +127,60 @@ fn any_flipped_bit_of_any_file_of_a_run_is_found() {
                 file.display()
             );
         }
-        fs::write(&file, whole).unwrap();
+        put_in_the_place_of(&file, whole);
         assert!(matches!(verified(), State::Done(_)), "{}", file.display());
+    }
+}
+
+/// A run that somebody has stopped, and the file in which it tells how far it is.
+fn interrupted() -> (Workspace, &'static str) {
+    let place = Workspace::restless();
+    let run = Program::start(&mut place.command("run", &["--only", "atoms"]), &place);
+    wait_for("a checkpoint", || {
+        files(&place.results())
+            .iter()
+            .any(|path| path.ends_with("checkpoint.h5"))
+    });
+    send("-INT", run.child.id());
+    run.wait(PATIENCE).ended_with(130);
+    (place, "attempt.json")
+}
+
+/// A run whose physics failed, and the file in which it tells why.
+fn failed() -> (Workspace, &'static str) {
+    // Just below the limit of the crystal at rest, which the breaking one undercuts.
+    let place = Workspace::with(&STUDY.replace("atoms: {", "atoms: {run: {time-step: 108 fs}, "));
+    place.cgaft("run", &["--only", "atoms"]).ended_with(1);
+    (place, "failure.json")
+}
+
+#[test]
+fn no_flipped_bit_of_what_an_unfinished_run_tells_of_itself_is_in_the_way() {
+    for (place, name) in [interrupted(), failed()] {
+        let state = || place.states()[2].clone();
+        let whole_state = state();
+        let file = files(&place.results())
+            .into_iter()
+            .find(|path| path.ends_with(name))
+            .unwrap();
+        let whole = fs::read(&file).unwrap();
+        let mut noise = Noise(11);
+        for flip in 0..FLIPS {
+            let (bytes, at) = with_a_flip(&whole, &mut noise);
+            fs::write(&file, &bytes).unwrap();
+            let found = state();
+            // What cannot be read says nothing, and the run goes on from its checkpoint.
+            assert!(
+                [whole_state.as_str(), "partial"].contains(&found.as_str()),
+                "{name}: bit {at}: {found}"
+            );
+            // These take longer, so a share of the flips must do.
+            if flip % 20 == 0 {
+                place.cgaft("report", &[]).succeeded();
+                place.cgaft("plan", &[]).succeeded();
+            }
+        }
+        let code = place.cgaft("run", &["--only", "atoms"]).status.code();
+        assert_eq!(code, Some(i32::from(name == "failure.json")), "{name}");
     }
 }

@@ -59,28 +59,31 @@ fn a_case_is_shown_at_its_stages_and_in_motion_and_all_that_branch_where_they_do
     assert_eq!(
         pictures,
         [
-            "branch-1.png",
-            "branch-2.png",
+            "branch-atoms.png",
+            "branch-mixed.png",
             "motion.png",
-            "path-0.png",
-            "path-1.png",
-            "path-2.png",
-            "slab-0.png",
-            "slab-1.png",
-            "slab-2.png",
-            "stage-0.png",
-            "stage-1.png"
+            "path-atoms.png",
+            "path-coarse.png",
+            "path-mixed.png",
+            "slab-atoms.png",
+            "slab-coarse.png",
+            "slab-mixed.png",
+            "stage-atoms-1.00percent.png",
+            "stage-atoms-3.00percent.png"
         ]
     );
     // The chunk of an animated PNG that tells its number of pictures.
     let motion = &figures["motion.png"];
     let place = motion.windows(4).position(|word| word == b"acTL").unwrap();
     assert_eq!(motion[place + 4..place + 8], [0, 0, 0, 2]);
-    assert_ne!(figures["stage-0.png"], figures["stage-1.png"]);
+    assert_ne!(
+        figures["stage-atoms-1.00percent.png"],
+        figures["stage-atoms-3.00percent.png"]
+    );
     let page = text(&folder, "report.html");
     assert!(page.contains("atoms through time") && page.contains("At the first branch"));
     assert!(
-        figures.keys().any(|name| name == "arrivals-2.svg"),
+        figures.keys().any(|name| name == "arrivals-atoms.svg"),
         "{:?}",
         figures.keys()
     );

@@ -18,7 +18,7 @@ use crate::verify::table::{Chapter, Gate};
 /// Motion so slow leaves central differences an error of 1e-10. The work of the grips summed by any rule poorer than the
 /// trapezoidal one would be off by one step in 1e5.
 const WHOLE: f64 = 1e-6;
-/// At half the limit, while a small slab breaks in two: atoms an edge, and some twice what the fastest motion at the tip
+/// At half the limit, while a small slab breaks in two: atoms per edge, and some twice what the fastest motion at the tip
 /// leaves: sums taken in another order break the slab in a slightly different way.
 const BREAKING: [(u16, f64); 2] = [(1, 1.2e-2), (10, 1.5e-2)];
 /// The error falls with the square of the step, so that what is booked wrongly, whatever the step, shows.

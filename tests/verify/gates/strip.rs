@@ -48,7 +48,7 @@ const PATH: f64 = 1e-3;
 fn the_j_integral_in_a_strip_is_what_it_stores_ahead_whatever_the_ring() {
     let mut gate = Gate::new(Chapter::Fracture, "1 strip, J-integral");
     let material = smooth();
-    // As many triangles of ten atoms an edge between tip and grips as there are rings and more, five heights long.
+    // As many triangles of ten atoms per edge between tip and grips as there are rings and more, five heights long.
     for (element, rows, triangles) in [(1, 10, 69), (10, 22, 149)] {
         let shape = Shape {
             layout: Layout {
