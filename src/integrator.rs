@@ -53,8 +53,8 @@ pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], leap: Leap) {
 /// it is the same to the bit as [`kick_and_drift`].
 pub struct Ahead<'a> {
     pub leap: Leap,
-    /// `None`: what the planes of velocities that are written hold.
-    pub before: Option<&'a Planes>,
+    /// How fast nodes were.
+    pub before: &'a Planes,
     pub mobility: &'a Planes,
     /// How each group of triangles answers to forces.
     pub inertias: &'a [Inertia],
@@ -69,7 +69,7 @@ impl Ahead<'_> {
         let inertia = &self.inertias[strip.group];
         for (axis, corners) in strip.axes.into_iter().enumerate() {
             let corners = corners.map(|corner| Nodes {
-                before: self.before.map(|before| &before[axis][corner.nodes.clone()]),
+                before: Some(&self.before[axis][corner.nodes.clone()]),
                 velocity: corner.velocity,
                 force: corner.force,
                 mobility: match inertia.mobility {
@@ -101,7 +101,7 @@ impl Ahead<'_> {
                     false => 0.0,
                 };
                 for (node, force) in nodes.into_iter().zip(forces) {
-                    let before = self.before.map_or(velocity[axis][node], |before| before[axis][node]);
+                    let before = self.before[axis][node];
                     let [mobility, position] = [self.mobility[axis][node], position[axis][node]];
                     [velocity[axis][node], next[axis][node]] =
                         self.leap.of_one(force - shared, mobility, before, position);
@@ -115,7 +115,7 @@ impl Ahead<'_> {
         if nodes.len() < FEW {
             for node in nodes.clone() {
                 for axis in 0..2 {
-                    let before = self.before.map_or(velocity[axis][node], |before| before[axis][node]);
+                    let before = self.before[axis][node];
                     let [mobility, position] = [self.mobility[axis][node], position[axis][node]];
                     [velocity[axis][node], next[axis][node]] =
                         self.leap.of_one(force[axis][node], mobility, before, position);
@@ -131,7 +131,7 @@ impl Ahead<'_> {
             tasks.for_each(|((next, velocity), from)| {
                 let part = from..from + next.len();
                 let atoms = Nodes {
-                    before: self.before.map(|before| &before[axis][part.clone()]),
+                    before: Some(&self.before[axis][part.clone()]),
                     velocity,
                     force: &force[axis][part.clone()],
                     mobility: Mobility::Each(&self.mobility[axis][part.clone()]),

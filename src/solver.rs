@@ -47,6 +47,7 @@ use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
 use schedule::Schedule;
 use sight::Sight;
+use step::Looks;
 use temperature::Thermometer;
 use traction::Traction;
 
@@ -98,7 +99,7 @@ pub struct Solver {
     /// Whether the motion of the next step has been done with the forces of this one, and where it puts nodes.
     is_ahead: bool,
     next: Planes,
-    /// How fast nodes come to be there; empty without atoms.
+    /// How fast they come to be there.
     next_velocity: Planes,
     /// How each group of triangles answers to forces.
     inertias: Vec<Inertia>,
@@ -277,7 +278,7 @@ impl Solver {
                 }
             }
             self.call(stop, last_checkpoint);
-            self.step_on(true)?;
+            self.step_on(Looks::WhenDue)?;
             if !self.is_ahead {
                 self.observe(observer, false)?;
             }

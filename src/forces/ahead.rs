@@ -8,8 +8,8 @@ use super::{ForceError, Forces, Measure, Planes, include};
 
 /// How nodes move on once their forces are certain.
 pub struct Motion<'a> {
-    /// How fast all nodes were, nm/ps; `None`: what `velocity` holds, where there are no atoms.
-    pub before: Option<&'a Planes>,
+    /// How fast all nodes were, nm/ps: kept, since what has moved may have to move again.
+    pub before: &'a Planes,
     /// How fast they come to be.
     pub velocity: &'a mut Planes,
     /// Where they come to be, nm.
@@ -29,22 +29,21 @@ pub struct Left {
 
 impl Motion<'_> {
     /// What moves atoms, of which those that are looked at are left.
-    pub fn of_atoms<'a>(&'a mut self, looked_at: &'a [Range<usize>]) -> Option<contact::AtomsAhead<'a>> {
-        let before = self.before?;
-        Some(contact::AtomsAhead {
-            before,
+    pub fn of_atoms<'a>(&'a mut self, looked_at: &'a [Range<usize>]) -> contact::AtomsAhead<'a> {
+        contact::AtomsAhead {
+            before: self.before,
             velocity: self.velocity,
             next: self.next,
             motion: self.atoms,
             looked_at,
-        })
+        }
     }
 }
 
 impl Forces {
-    /// Forces on nodes of this rank, eV/nm, as [`Self::compute`] gives them; moves nodes into the next moment as soon as their forces are certain: those with the
-    /// positions still in the cache. Returns what it leaves, and the planes. Forces on what is left are known, and on what is
-    /// [looked at](Self::look_at); those on the rest are not kept.
+    /// Forces on nodes of this rank, eV/nm, as [`Self::compute`] gives them; moves nodes into the next moment as soon as their
+    /// forces are certain, with the positions still in the cache. Returns what it leaves, and the planes. Forces on what is
+    /// left are known, and on what is [looked at](Self::look_at); those on the rest are not kept.
     pub fn compute_and_move<'a>(
         &mut self,
         position: &mut Planes,
@@ -52,9 +51,9 @@ impl Forces {
         mut motion: Motion<'a>,
     ) -> Result<(Left, Motion<'a>), ForceError> {
         self.tell_certain();
-        let irregular = self.sum::<false>(position, force, &mut Measure::default(), Some(&mut motion))?;
+        let touched = self.sum::<false>(position, force, &mut Measure::default(), Some(&mut motion))?;
         let mut triangles = Vec::new();
-        include(&mut triangles, irregular);
+        include(&mut triangles, touched);
         include(&mut triangles, self.uncertain.clone());
         let atoms = std::mem::take(&mut self.left_atoms);
         Ok((Left { triangles, atoms }, motion))

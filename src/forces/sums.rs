@@ -51,7 +51,7 @@ impl Forces {
 
     /// Sums, and sums again as often as any rank finds that interfaces are not what they were or that lists are out of
     /// date. Contacts are summed with the lists at hand before that is known, because it mostly turns out well. Returns the
-    /// triangles whose interfaces were found irregular at first.
+    /// triangles with irregular bonds and those whose interfaces have changed.
     fn sum_with<S: PairShape, const MEASURED: bool>(
         &mut self,
         law: &CutPotential<S>,
@@ -61,7 +61,7 @@ impl Forces {
         mut motion: Option<&mut Motion>,
     ) -> Result<Vec<u32>, ForceError> {
         let mut irregular = self.sum_all_tiles::<S, MEASURED>(law, position, force, measure, motion.as_deref_mut());
-        let at_first = irregular.len();
+        let mut changed_beside = Vec::new();
         loop {
             let changed = self.changed_interfaces(&irregular, position);
             let mut disturbed = Vec::new();
@@ -81,7 +81,7 @@ impl Forces {
                 let start = Instant::now();
                 let atoms = motion
                     .as_deref_mut()
-                    .and_then(|motion| motion.of_atoms(&self.looked_at_atoms));
+                    .map(|motion| motion.of_atoms(&self.looked_at_atoms));
                 (disturbed, self.left_atoms) = self
                     .contacts
                     .sum::<S, MEASURED>(&field, position, force, measure, atoms);
@@ -92,7 +92,8 @@ impl Forces {
             }
             self.agree();
             if self.domain.hears(Call::InterfaceChanged) {
-                let touched = self.change_interfaces(&changed);
+                let (touched, beside) = self.change_interfaces(&changed);
+                changed_beside.extend(beside);
                 irregular.extend(self.sum_these_tiles::<S, MEASURED>(law, position, force, measure, &touched, None));
             } else if self.domain.hears(Call::ListOutdated) {
                 let disturbed = self.domain.ranks().join(disturbed);
@@ -103,7 +104,7 @@ impl Forces {
             }
         }
         self.contacts.add_to(&self.mesh, &self.domain, force, measure);
-        irregular.truncate(at_first);
+        irregular.extend(changed_beside);
         Ok(irregular)
     }
 
@@ -176,7 +177,7 @@ impl Forces {
             .map(|(force, held)| tile::Output { force, held });
         let mut ahead: Vec<Option<tile::Ahead>> = Vec::new();
         if let Some(motion) = motion {
-            let advance = motion.advance;
+            let (before, advance) = (motion.before, motion.advance);
             let [velocity, next] = [&mut *motion.velocity, &mut *motion.next].map(|planes| {
                 let planes = planes.each_mut().map(|axis| &mut axis[nodes.clone()]);
                 in_lengths(planes, of_nodes.clone())
@@ -186,6 +187,7 @@ impl Forces {
                 Some(tile::Ahead {
                     certain,
                     looked_at: &self.looked_at,
+                    before,
                     velocity,
                     next,
                     advance,
@@ -219,12 +221,13 @@ impl Forces {
         watched.chain(of_irregular).collect()
     }
 
-    /// Puts in force what any rank has found of interfaces; returns which of my tiles they touch.
-    fn change_interfaces(&mut self, mine: &[(u32, State)]) -> Vec<bool> {
+    /// Puts in force what any rank has found of interfaces; returns which of my tiles and of my triangles they touch.
+    fn change_interfaces(&mut self, mine: &[(u32, State)]) -> (Vec<bool>, Vec<u32>) {
         let words = mine.iter().flat_map(|&(number, state)| [number, state as u32]);
         let words = self.domain.ranks().join(words.collect());
         let mut touched = vec![false; self.tiles.len()];
         let triangles = self.domain.triangles();
+        let mut beside = Vec::new();
         let (changed, _) = words.as_chunks::<2>();
         for &[number, state] in changed {
             let pair = self.interfaces.pairs[number as usize];
@@ -233,13 +236,14 @@ impl Forces {
             for triangle in [pair.first as usize, pair.second as usize] {
                 if triangles.contains(&triangle) {
                     touched[tile::of_triangle(&self.tiles, triangle)] = true;
+                    beside.push(triangle as u32);
                 }
             }
         }
         let changed: Vec<u32> = changed.iter().map(|&[number, _]| number).collect();
         self.watch(&changed);
         self.contacts.forget();
-        touched
+        (touched, beside)
     }
 
     /// Makes new lists of neighbours. Anything may have come near, so all ranks learn all positions.

@@ -12,12 +12,27 @@ use crate::state::{State, Strip};
 /// Steps between comparisons of what ranks have spent.
 const COMPARE_EVERY: u64 = 100;
 
+/// Who looks at the state after a step.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Looks {
+    Always,
+    /// Observers that something is due for.
+    WhenDue,
+    Never,
+}
+
 impl Solver {
     /// One step of central differences.
     pub fn advance(&mut self) -> Result<(), SolverError> {
-        self.step_on(false)?;
+        self.step_on(Looks::Always)?;
         self.settle();
         Ok(())
+    }
+
+    /// So many steps, the same to the bit, of which nobody looks at any but the last.
+    pub fn advance_by(&mut self, steps: u64) -> Result<(), SolverError> {
+        (1..steps).try_for_each(|_| self.step_on(Looks::Never))?;
+        self.advance()
     }
 
     /// Gives the velocities the half kick that they still lack.
@@ -27,8 +42,8 @@ impl Solver {
         }
     }
 
-    /// One step whose last half kick is left due; where it `may_run_ahead`, the motion of the next step may be done, too.
-    pub(super) fn step_on(&mut self, may_run_ahead: bool) -> Result<(), SolverError> {
+    /// One step whose last half kick is left due; where nobody looks at it, the motion of the next step may be done, too.
+    pub(super) fn step_on(&mut self, looks: Looks) -> Result<(), SolverError> {
         let mut clock = Instant::now();
         let time_step = self.time_step;
         if self.due_kick.is_some_and(|due| due != 0.5 * time_step) {
@@ -44,11 +59,15 @@ impl Solver {
         self.step += 1;
         self.time += time_step;
         self.cost.book(Phase::Motion, &mut clock);
-        if may_run_ahead && self.may_run_ahead() {
+        let is_observed = match looks {
+            Looks::Always => true,
+            Looks::WhenDue => self.will_be_observed(),
+            Looks::Never => false,
+        };
+        if !is_observed && self.may_run_ahead() {
             self.compute_and_move().map_err(|source| self.blow_up(source))?;
         } else {
-            self.compute(self.will_be_observed())
-                .map_err(|source| self.blow_up(source))?;
+            self.compute(is_observed).map_err(|source| self.blow_up(source))?;
             self.due_kick = Some(0.5 * time_step);
         }
         self.cost.book(Phase::Forces, &mut clock);
@@ -124,11 +143,10 @@ impl Solver {
         is_due(&self.probes) || is_due(&self.snapshots) || self.ending().is_some()
     }
 
-    /// Whether nobody looks at the state or changes the time step before the next step.
+    /// Whether nobody stops the run, cuts the specimen anew or changes the time step before the next step.
     fn may_run_ahead(&self) -> bool {
         let chosen = self.settings.time_step;
-        !(self.will_be_observed()
-            || self.forces.domain().is_called()
+        !(self.forces.domain().is_called()
             || chosen.is_to_be_checked(self.step, self.time_step, self.stability_limit)
             || chosen.follows_forces(self.step)
             || self.step.is_multiple_of(COMPARE_EVERY))
@@ -139,10 +157,7 @@ impl Solver {
         if self.next[0].is_empty() {
             self.inertias = self.state.inertias(self.forces.mesh());
             self.next = self.state.position.clone();
-            // Atoms may have to be moved again when lists are made anew: how fast they were is kept till then.
-            if self.forces.mesh().elements.len() > self.forces.mesh().triangles {
-                self.next_velocity = self.state.velocity.clone();
-            }
+            self.next_velocity = self.state.velocity.clone();
         }
         let State {
             position,
@@ -153,27 +168,21 @@ impl Solver {
             ..
         } = &mut self.state;
         let leap = integrator::leap(2, self.time_step);
-        let mesh = self.forces.mesh();
         let atoms = AtomMotion {
             leap,
             mobility: mass.last().map_or(0.0, |mass| 1.0 / mass),
         };
-        let has_atoms = mesh.elements.len() > mesh.triangles;
-        let (before, velocity): (Option<&Planes>, &mut Planes) = match has_atoms {
-            true => (Some(velocity), &mut self.next_velocity),
-            false => (None, velocity),
-        };
         let inertias = &self.inertias;
         let ahead = integrator::Ahead {
             leap,
-            before,
+            before: velocity,
             mobility,
             inertias,
         };
         let advance = |strip: Strip, position: &Planes| ahead.strip(strip, position);
         let motion = Motion {
-            before,
-            velocity,
+            before: velocity,
+            velocity: &mut self.next_velocity,
             next: &mut self.next,
             advance: &advance,
             atoms,
@@ -189,9 +198,7 @@ impl Solver {
             ahead.atoms(nodes, [position, force], [&mut *velocity, &mut *next]);
         }
         std::mem::swap(&mut self.state.position, &mut self.next);
-        if has_atoms {
-            std::mem::swap(&mut self.state.velocity, &mut self.next_velocity);
-        }
+        std::mem::swap(&mut self.state.velocity, &mut self.next_velocity);
         self.is_ahead = true;
         self.measured = false;
         Ok(())

@@ -1,5 +1,6 @@
 //! The run in time: conservation, stability, restart.
 
+mod ahead;
 mod damped;
 mod energy;
 mod exploding;

@@ -46,6 +46,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
                 // What moves on when the row ends.
                 for node in run.nodes[0] {
                     for axis in 0..2 {
+                        prefetch(&ahead.before[axis], node as usize + at);
                         prefetch(ahead.velocity[axis], node as usize + at - first_node);
                         prefetch(ahead.next[axis], node as usize + at - first_node);
                     }

@@ -58,6 +58,8 @@ pub struct Ahead<'a> {
     pub certain: &'a [Range<usize>],
     /// Whether the forces on each group are to be kept all the same.
     pub looked_at: &'a [bool],
+    /// How fast all nodes were.
+    pub before: &'a Planes,
     /// Planes of the tile's nodes.
     pub velocity: [&'a mut [f64]; 2],
     pub next: [&'a mut [f64]; 2],
