@@ -9,6 +9,7 @@ mod suite {
     mod formulas;
     mod j_integral;
     mod notches;
+    mod published;
     mod record;
     mod relaxation;
     mod report;

@@ -11,7 +11,7 @@ use crate::mesh::interfaces::BondString;
 /// A rule by which the sum over all bonds is taken. Each is one energy, and its forces are the gradient of that.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Summation {
-    /// Every bond.
+    /// Every bond; where it is certified, few places along a string stand for all of its bonds.
     #[default]
     Exact,
     /// Of each string of bonds between two triangles its ends, where the nodes are, with weight 1 and this many Gauss

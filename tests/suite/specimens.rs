@@ -1,8 +1,5 @@
 //! Small specimens and states that several tests share.
 
-use std::fs;
-use std::path::Path;
-
 use cgaft::forces::Planes;
 use cgaft::material::Material;
 use cgaft::mesh::cut::Crack;
@@ -10,12 +7,6 @@ use cgaft::mesh::region::{Region, Shape};
 use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::{AtCutoff, CutPotential, HarmonicBond, Interaction, LennardJones, Morse};
-
-/// Replaces a published file, which nobody may write.
-pub fn put_in_the_place_of(file: &Path, bytes: impl AsRef<[u8]>) {
-    fs::remove_file(file).unwrap();
-    fs::write(file, bytes).unwrap();
-}
 
 pub const LENNARD_JONES: LennardJones = LennardJones {
     epsilon: 1.0,

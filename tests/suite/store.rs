@@ -8,7 +8,7 @@ use cgaft::store::{Account, FolderLock, Leftover, Outcome, Phase, Reached, State
 use serde_json::json;
 use tempfile::TempDir;
 
-use super::specimens::put_in_the_place_of;
+use super::published::put_in_the_place_of;
 
 fn store() -> (TempDir, Store) {
     let folder = tempfile::tempdir().unwrap();

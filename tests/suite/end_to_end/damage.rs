@@ -6,7 +6,8 @@ use std::path::Path;
 use cgaft::store::{State, Store};
 
 use super::{PATIENCE, Program, STUDY, Workspace, assert_same_results, files, send, wait_for};
-use crate::suite::specimens::{Noise, put_in_the_place_of};
+use crate::suite::published::put_in_the_place_of;
+use crate::suite::specimens::Noise;
 
 /// Another bit in the middle of a file, whose size stays.
 fn flip_a_bit(file: &Path) {
