@@ -119,23 +119,18 @@ impl Domain {
     /// its rank was off. Nobody knows the numbers of another rank's nodes before they have been shared.
     pub fn cut_anew(&mut self, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy, spent: [&[f64]; 2]) {
         let count = self.triangles.len() - 1;
-        let first_atom = mesh.triangles;
-        let classes = [
-            (&mut self.triangles, 0, spent[0]),
-            (&mut self.atoms, first_atom, spent[1]),
-        ];
-        for (starts, first, spent) in classes {
+        let costs = |starts: &[usize], first: usize, spent: &[f64]| -> Vec<f64> {
             let costs = starts.windows(2).zip(spent).flat_map(|(ends, &spent)| {
                 let elements = first + ends[0]..first + ends[1];
                 let thought: f64 = elements.clone().map(cost).sum();
                 elements.map(move |element| cost(element) * spent / thought)
             });
-            let costs: Vec<f64> = costs.collect();
-            *starts = match first {
-                0 => cut::equal_shares_of_groups(mesh, costs.into_iter(), count),
-                _ => cut::equal_shares(costs.iter().copied(), count),
-            };
-        }
+            costs.collect()
+        };
+        let of_triangles = costs(&self.triangles, 0, spent[0]);
+        let of_atoms = costs(&self.atoms, mesh.triangles, spent[1]);
+        self.triangles = cut::equal_shares_of_groups(mesh, of_triangles.into_iter(), count);
+        self.atoms = cut::equal_shares(of_atoms.iter().copied(), count);
     }
 
     pub fn ranks(&self) -> Ranks {
@@ -318,6 +313,30 @@ mod tests {
         let share = domain.atoms().len() as f64 / atoms as f64;
         assert!((share - 0.125).abs() < 0.01, "{share}");
         assert_eq!(domain.triangles(), part(0).triangles());
+    }
+
+    #[test]
+    fn a_cut_of_atoms_alone_follows_what_was_measured_too() {
+        let layout = Layout {
+            block: 10,
+            rows: 4,
+            triangles: 9,
+        };
+        let mesh = Mesh::new(&Plan {
+            layout,
+            element: 1,
+            regions: vec![],
+            crack: None,
+            grip_rows: 10,
+            spacing: 1.0,
+        });
+        let atoms = mesh.elements.len();
+        let mut domain = Domain::part(Ranks::alone(), [0, 2], &mesh, |_| 1.0);
+        domain.cut_anew(&mesh, |_| 1.0, [&[0.0; 2], &[3.0, 1.0]]);
+        // The first half costs three quarters of the whole, so that two thirds of it are a half.
+        let share = domain.atoms().len() as f64 / atoms as f64;
+        assert!((share - 1.0 / 3.0).abs() < 0.01, "{share}");
+        assert!(domain.triangles().is_empty());
     }
 
     #[test]
