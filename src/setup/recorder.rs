@@ -78,9 +78,9 @@ impl Picture for Snapshot<'_> {
     fn displacement(&self) -> Cow<'_, [[f64; 2]]> {
         let Moment { mesh, state, .. } = self.moment;
         let [x, y] = &state.position;
-        let sites = mesh.elements.iter().flat_map(Element::corners);
-        let reference = sites.map(|site| mesh.reference(site));
-        let displacement = reference.zip(x).zip(y).map(|((then, x), y)| [x - then[0], y - then[1]]);
+        let [from_x, from_y] = mesh.node_positions();
+        let moved = x.iter().zip(from_x).zip(y.iter().zip(from_y));
+        let displacement = moved.map(|((x, from_x), (y, from_y))| [x - from_x, y - from_y]);
         Cow::Owned(collected(state.nodes(), displacement))
     }
 

@@ -9,6 +9,7 @@ mod full;
 mod interrupt;
 mod kill;
 mod pages;
+mod pictures;
 mod quickstart;
 mod ranks;
 mod repeat;
