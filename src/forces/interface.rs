@@ -31,6 +31,16 @@ impl State {
     pub fn from_number(number: u32) -> Self {
         [Self::Tight, Self::Loose, Self::Open][number as usize]
     }
+
+    /// Whether any of some interfaces is open, without a branch for each.
+    #[inline(always)]
+    pub fn any_open(states: &[Self]) -> bool {
+        let mut any_open = false;
+        for &state in states {
+            any_open |= state == Self::Open;
+        }
+        any_open
+    }
 }
 
 /// What the test of an interface compares.

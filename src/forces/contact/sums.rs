@@ -119,6 +119,7 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                     }
                 }
                 Part::Alike { sites, steps } => {
+                    let starts: Vec<u32> = (0..=lanes).map(|site| (site * steps.len()) as u32).collect();
                     let mut partners = Vec::new();
                     for from in sites.clone().step_by(lanes) {
                         let count = lanes.min(sites.end - from);
@@ -126,8 +127,7 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                         partners.extend(
                             (from..from + count).flat_map(|site| steps.iter().map(move |step| step.from(site))),
                         );
-                        let starts: Vec<u32> = (0..=count).map(|site| (site * steps.len()) as u32).collect();
-                        let sum = self.sum_listed(simd, from, &starts, &partners);
+                        let sum = self.sum_listed(simd, from, &starts[..=count], &partners);
                         self.store(&sum, from - start, count);
                         note(&mut irregular, from, count, sum.regular);
                     }

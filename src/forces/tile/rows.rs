@@ -15,6 +15,9 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
     /// Adds the forces of a run of edges; where bonds are open or irregular the general way does.
     #[inline(always)]
     pub(super) fn add_edges<L: Simd>(&mut self, simd: L, law: &CutPotential<S>, regular: &Regular, run: &Run) {
+        let [one, other] = self.field.strings.of(run.kind).carried.as_slice() else {
+            return self.add_run::<L, 2>(simd, law, run);
+        };
         let lanes = Lanes::<L>::COUNT;
         let total = run.count as usize;
         let [a, b, c, d] = [run.nodes[0][0], run.nodes[0][1], run.nodes[1][0], run.nodes[1][1]]
@@ -32,16 +35,10 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
         let states = &self.field.states[run.number as usize..run.number as usize + total];
         let spacing = self.field.limit.spacing;
         let first_node = 3 * self.tile.triangles.start;
-        let [one, other] = self.field.strings.of(run.kind).carried.as_slice() else {
-            return;
-        };
         let mut others = Vec::new();
         let mut at = 0;
         while at + lanes <= total {
-            let mut any_open = false;
-            for &state in &states[at..at + lanes] {
-                any_open |= state == State::Open;
-            }
+            let any_open = State::any_open(&states[at..at + lanes]);
             if let Some(ahead) = &self.ahead {
                 // What moves on when the row ends.
                 for node in run.nodes[0] {
@@ -92,10 +89,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
         let mut others = Vec::new();
         let mut at = 0;
         while at + lanes <= total {
-            let mut any_open = false;
-            for &state in &states[at..at + lanes] {
-                any_open |= state == State::Open;
-            }
+            let any_open = State::any_open(&states[at..at + lanes]);
             let [from, to] = [Vector::load(simd, xa, ya, at), Vector::load(simd, xb, yb, at)];
             let (force, is_regular) = rows::sum_corner(simd, law, regular, from, to);
             if any_open || !is_regular.every() {

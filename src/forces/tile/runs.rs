@@ -31,11 +31,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
     #[inline(always)]
     fn are_intact(&self, run: &Run, at: usize, count: usize) -> bool {
         let first = run.number as usize + at;
-        let mut any_open = false;
-        for &state in &self.field.states[first..first + count] {
-            any_open |= state == State::Open;
-        }
-        !any_open
+        !State::any_open(&self.field.states[first..first + count])
     }
 
     /// Adds the forces of so many of the interfaces of a run from one on, of which some are open or irregular.
