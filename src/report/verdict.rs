@@ -5,7 +5,7 @@ use super::numbers::{capital, round_significant, significant};
 use super::overview::{ROUNDING, between_probes};
 use super::sweep::{self, Series};
 use super::tables::specimen::are_one_computation;
-use super::units::PERCENT;
+use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
 use super::{Analysed, beware};
 use crate::plan::Swept;
 use crate::units::amounts::{bytes, duration};
@@ -193,11 +193,11 @@ fn outcome(case: &Analysed) -> Option<String> {
     if let Some((_, Some(gap))) = (headline::START.of)(case) {
         sentence.push_str(&format!(" (± {} %, one probe)", significant(gap, 1)));
     }
-    if let Some((value, error)) = (headline::K.of)(case) {
+    if let Some(j) = case.findings.from_j {
         sentence.push_str(&format!(
-            " at a K of {} MPa √m by the J-integral (±: {})",
-            with_error(value, error),
-            headline::K.error
+            " at a K of {} MPa √m by the J-integral (rings agree to {} %)",
+            significant(j.value * MEGAPASCAL_ROOT_METRE, 3),
+            significant(j.spread / j.value * PERCENT, 1)
         ));
     }
     Some(sentence)

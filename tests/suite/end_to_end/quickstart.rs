@@ -46,6 +46,14 @@ fn the_quickstart_keeps_its_promise() {
         .succeeded();
     let results = place.path("results/quickstart");
 
+    let page = std::fs::read_to_string(results.join("report.md")).unwrap();
+    let answer = page.lines().find(|line| line.starts_with("**In atoms")).unwrap();
+    assert!(
+        answer.contains(" MPa √m by the J-integral (rings agree to "),
+        "{answer}"
+    );
+    assert!(!answer.contains("± 0.0000"), "{answer}");
+
     let summary = table(&results, "summary");
     assert_eq!(
         summary.iter().map(|row| row["case"].as_str()).collect::<Vec<_>>(),
