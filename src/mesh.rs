@@ -10,6 +10,7 @@ pub mod interfaces;
 mod owners;
 pub mod region;
 pub mod sites;
+pub mod solid;
 mod tiling;
 
 use std::collections::HashMap;
