@@ -67,6 +67,10 @@ pub enum SetupError {
         element: u32,
         rows: i32,
     },
+    /// Cells per edge of a block.
+    BlockTooLarge {
+        element: u32,
+    },
     /// Of the crack, and of the longest that leaves a bond, nm.
     CrackTooLong {
         crack: f64,
@@ -100,6 +104,8 @@ pub enum SetupError {
         needed: u64,
         present: u64,
     },
+    /// What computes solids is not part of this program.
+    Solid,
     Solver(#[from] SolverError),
 }
 
@@ -200,6 +206,11 @@ impl SetupError {
                 format!("use {rows} or less"),
             )
             .with(Subject::Width, "in this width"),
+            Self::BlockTooLarge { element } => Refusal::new(
+                Subject::Element,
+                format!("a block of {element} cells per edge is larger than any solid"),
+                "write for example 10",
+            ),
             Self::CrackTooLong { crack, longest } => Refusal::new(
                 Subject::Crack,
                 format!(
@@ -263,6 +274,7 @@ impl SetupError {
                 )
             }
             .with(Subject::Element, "with these elements"),
+            Self::Solid => Refusal::new(Subject::Length, "solids cannot be computed yet", "compute a slab"),
             Self::Solver(SolverError::StepTooLong { given, limit }) => Refusal::new(
                 Subject::TimeStep,
                 format!(

@@ -5,15 +5,16 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
+use super::SetupError;
 use super::recorder::{Recorder, field_mesh};
-use super::{SetupError, shared_solver};
+use super::slab::shared_solver;
 use crate::domain::{MessageCost, Ranks};
 use crate::plan::CaseId;
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
 use crate::solver::{Ending, Phase as Spent, Progress, RunError, Solver, SolverError};
 use crate::store::{Phase, StoreError};
-use crate::study::case::Case;
+use crate::study::case::{Body, Case};
 
 /// How a run ended and what it cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -84,7 +85,10 @@ fn compute(
 ) -> Result<Finished, RunCaseError> {
     let id = CaseId::of(case).to_string();
     let start = Instant::now();
-    let mut solver = shared_solver(case, ranks)?;
+    let Body::Slab(slab) = &case.body else {
+        return Err(SetupError::Solid.into());
+    };
+    let mut solver = shared_solver(case, slab, ranks)?;
     let set_up = start.elapsed().as_secs_f64();
     let mesh = set_up - solver.cost().seconds(Spent::SetUp) - solver.cost().seconds(Spent::Cut);
     resume(&mut solver, into, ranks, &id, warn)?;

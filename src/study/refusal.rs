@@ -123,8 +123,10 @@ impl Subject {
 }
 
 fn strain_rate(case: &CaseFile) -> Option<&StrainRate> {
-    let Loading::StrainRate(values) = case.loading.right()?;
-    Some(values)
+    match case.loading.right()? {
+        Loading::StrainRate(values) => Some(values),
+        _ => None,
+    }
 }
 
 /// The cutoff, or the end of a smooth one.

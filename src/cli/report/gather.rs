@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::analysis::series::{Series, Setting};
 use crate::cli::choices;
-use crate::cli::specimen::end;
+use crate::cli::specimen::slab::end;
 use crate::cli::survey::{Entry, Survey};
 use crate::domain::MessageCost;
 use crate::durable;
@@ -38,14 +38,20 @@ pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
             .iter()
             .map(|entry| CaseResult {
                 // Where this machine cannot hold the mesh its specimen is not told.
-                specimen: estimator.specimen(&entry.planned.case).ok().map(|laid| specimen(&laid)),
+                specimen: estimator
+                    .specimen(&entry.planned.case)
+                    .ok()
+                    .and_then(|laid| match laid {
+                        setup::Specimen::Slab(laid) => Some(specimen(&laid)),
+                        setup::Specimen::Solid(_) => None,
+                    }),
                 ..case_result(survey, entry, true)
             })
             .collect(),
     }
 }
 
-fn specimen(laid: &setup::Specimen) -> Specimen {
+fn specimen(laid: &setup::slab::estimate::Specimen) -> Specimen {
     let geometry = &laid.geometry;
     let both = |size: setup::Size| [size.asked, size.actual];
     Specimen {
@@ -70,7 +76,8 @@ fn scaling(survey: &Survey) -> Option<Scaling> {
     let growth = survey.plan.scaling?;
     let case = &survey.plan.cases.first()?.case;
     let counts: Vec<u32> = (0..=MOST_RANKS.ilog2()).map(|power| 1 << power).collect();
-    let burdens = setup::burdens(case, case.execution.ranks?, growth, &counts);
+    let slab = case.slab()?;
+    let burdens = setup::burdens(slab, &case.run.until, case.execution.ranks?, growth, &counts);
     // Where this machine cannot hold the mesh there is nothing to predict from.
     let burdens = burdens.unwrap_or_default();
     let compared = survey.plan.comparisons.iter().cloned();
