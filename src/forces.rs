@@ -21,6 +21,7 @@ pub mod referee;
 mod regular;
 mod rows;
 mod share;
+pub mod solid;
 mod stiffness;
 mod strings;
 mod summation;

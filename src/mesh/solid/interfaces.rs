@@ -7,8 +7,8 @@ use super::element::{Element, Shape};
 use super::template::{BORDERS, Border};
 use crate::lattice::fcc;
 
-/// Longest lattice vectors across a border, in squared spacings: nearest and second neighbours.
-const REACH: f64 = 1.45;
+/// Distance of second neighbours, spacings.
+pub const SECOND_NEIGHBOURS: f64 = 1.415;
 
 /// Borders of one kind between parts side by side: the first of it between the first parts, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -87,11 +87,12 @@ pub struct Interfaces {
 }
 
 impl Interfaces {
-    pub fn new(mesh: &Solid) -> Self {
+    /// `reach` is that of the potential, in spacings.
+    pub fn new(mesh: &Solid, reach: f64) -> Self {
         let parts = &mesh.elements[..mesh.parts];
         let numbers: HashMap<Element, u32> = parts.iter().copied().zip(0..).collect();
         let mut interfaces = Self {
-            facing: facing(parts),
+            facing: facing(parts, reach),
             ..Self::default()
         };
         for group in mesh.groups() {
@@ -202,12 +203,14 @@ fn opposite(side: Side) -> Side {
     }
 }
 
-/// The facing sites of all sizes of blocks and all sides.
-fn facing(parts: &[Element]) -> HashMap<(i32, Side), Vec<[i32; 3]>> {
+/// The facing sites of all sizes of blocks and all sides. Where the potential reaches beyond second neighbours, all sites
+/// within its reach of any side face all of them.
+fn facing(parts: &[Element], reach: f64) -> HashMap<(i32, Side), Vec<[i32; 3]>> {
     let mut sizes: Vec<i32> = parts.iter().map(|element| element.size).collect();
     sizes.sort_unstable();
     sizes.dedup();
-    let half = fcc::half_vectors_within(REACH);
+    let is_long = reach > SECOND_NEIGHBOURS;
+    let half = fcc::half_vectors_within(reach.max(SECOND_NEIGHBOURS));
     let vectors: Vec<[i32; 3]> = half
         .into_iter()
         .flat_map(|v| [v, v.map(|component| -component)])
@@ -225,7 +228,13 @@ fn facing(parts: &[Element]) -> HashMap<(i32, Side), Vec<[i32; 3]>> {
                 let mut neighbours = vectors
                     .iter()
                     .map(|vector| std::array::from_fn(|axis| local[axis] + vector[axis]));
-                neighbours.any(|neighbour| other.contains(neighbour))
+                neighbours.any(|neighbour| {
+                    if is_long {
+                        !own.contains(neighbour)
+                    } else {
+                        other.contains(neighbour)
+                    }
+                })
             };
             facing.insert((size, side), own.locals().filter(faces).collect());
         }

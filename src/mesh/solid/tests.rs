@@ -153,7 +153,7 @@ fn bonds_by_pair(mesh: &Solid, squared: i32) -> HashMap<[u32; 2], u32> {
 fn borders_are_all_that_bonds_of_first_and_second_neighbours_find() {
     for n in [3, 6, 10] {
         let mesh = blocks([3 * n; 3], n as u16, vec![], vec![]);
-        let interfaces = Interfaces::new(&mesh);
+        let interfaces = Interfaces::new(&mesh, 1.0);
         let nearest = bonds_by_pair(&mesh, 1);
         let second = bonds_by_pair(&mesh, 2);
         let mut found = HashMap::new();
