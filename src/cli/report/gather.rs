@@ -1,5 +1,7 @@
 //! What the store holds, as the report wants it.
 
+mod solid;
+
 use std::path::{Path, PathBuf};
 
 use crate::analysis::series::{Series, Setting};
@@ -36,16 +38,15 @@ pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
         cases: survey
             .entries
             .iter()
-            .map(|entry| CaseResult {
+            .map(|entry| {
+                let mut result = case_result(survey, entry, true);
                 // Where this machine cannot hold the mesh its specimen is not told.
-                specimen: estimator
-                    .specimen(&entry.planned.case)
-                    .ok()
-                    .and_then(|laid| match laid {
-                        setup::Specimen::Slab(laid) => Some(specimen(&laid)),
-                        setup::Specimen::Solid(_) => None,
-                    }),
-                ..case_result(survey, entry, true)
+                match estimator.specimen(&entry.planned.case) {
+                    Ok(setup::Specimen::Slab(laid)) => result.specimen = Some(specimen(&laid)),
+                    Ok(setup::Specimen::Solid(laid)) => solid::tell(&mut result, &laid),
+                    Err(_) => (),
+                }
+                result
             })
             .collect(),
     }

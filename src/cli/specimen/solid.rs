@@ -63,11 +63,11 @@ fn plural(kind: &Kind) -> &'static str {
     }
 }
 
-fn notch(specimen: &Specimen) -> String {
+pub fn notch(specimen: &Specimen) -> String {
     match (specimen.slot, specimen.severed) {
         (Some(blocks), _) => format!("{blocks} blocks out"),
         (None, Some([depth, at])) => format!("severed {} deep at {}", digits(depth.actual), size(at)),
-        (None, None) => "-".to_owned(),
+        (None, None) => "none".to_owned(),
     }
 }
 

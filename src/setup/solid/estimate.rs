@@ -2,11 +2,14 @@
 
 use super::specimen::{Kind, Specimen, site_count};
 use super::{lay_out, material, strain_rate};
+use crate::forces::solid::Forces;
 use crate::material::Material;
+use crate::mesh::solid::sites::{Frame, Outline, Sites};
+use crate::mesh::solid::{Plan, SMALLEST_BLOCK, Solid as Mesh};
 use crate::setup::estimate::{self, Estimate, ranks, time_of_run};
 use crate::setup::intervals::between_pictures;
 use crate::setup::{SetupError, memory};
-use crate::study::case::{Case, Solid, TimeStep};
+use crate::study::case::{self, Case, Solid, TimeStep};
 
 /// Bytes: of a process that computes hardly anything, and what an atom, a tetrahedron and an octahedron add.
 const BYTES_A_PROCESS: f64 = 20e6;
@@ -21,9 +24,12 @@ const SECONDS_AN_ATOM: f64 = 60e-9;
 const SECONDS_AN_ELEMENT: f64 = 100e-9;
 const SECONDS_A_FACE_SITE: f64 = 1e-9;
 
-/// Estimates solids.
+/// Estimates solids, and remembers what many cases of one study have in common.
 #[derive(Default)]
-pub struct Estimator;
+pub struct Estimator {
+    /// Squared highest frequencies of elements of one size, 1/ps^2.
+    frequencies: Vec<(case::Material, u32, f64)>,
+}
 
 impl Estimator {
     pub fn estimate(&mut self, case: &Case, solid: &Solid) -> Result<Estimate, SetupError> {
@@ -31,7 +37,7 @@ impl Estimator {
         let laid = lay_out(solid, material.spacing)?;
         refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, ranks(case))?;
         let specimen = Specimen::of(case, solid, &laid);
-        let stability_limit = stability_limit(&material, &specimen);
+        let stability_limit = self.stability_limit(solid, &material, &specimen);
         let time_step = match case.run.time_step {
             TimeStep::Auto { fraction } => fraction * stability_limit,
             TimeStep::Given(step) => step,
@@ -74,6 +80,22 @@ impl Estimator {
         refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, 1)?;
         Ok(Specimen::of(case, solid, &laid))
     }
+
+    /// The stability limit of the perfect crystal in this mesh, ps: that of its stiffest size of elements, each looked at in two
+    /// blocks of its own.
+    fn stability_limit(&mut self, solid: &Solid, material: &Material, specimen: &Specimen) -> f64 {
+        let mut most = 0.0;
+        for &Kind { size, .. } in &specimen.kinds {
+            let is_known = |known: &&(case::Material, u32, f64)| known.0 == solid.material && known.1 == size;
+            let found = self.frequencies.iter().find(is_known).map(|known| known.2);
+            let squared = found.unwrap_or_else(|| squared_frequency(material, size));
+            if found.is_none() {
+                self.frequencies.push((solid.material.clone(), size, squared));
+            }
+            most = f64::max(most, squared);
+        }
+        2.0 / most.sqrt()
+    }
 }
 
 fn memory_of(kinds: &[Kind]) -> f64 {
@@ -111,9 +133,19 @@ pub fn refuse_what_does_not_fit(sites: u64, element: u32, ranks: u32) -> Result<
     }
 }
 
-/// The stability limit of the perfect crystal, ps.
-fn stability_limit(material: &Material, specimen: &Specimen) -> f64 {
-    let smallest = specimen.kinds.iter().map(|kind| kind.size).min().unwrap_or(1);
-    let _ = smallest;
-    2.0 / (21.38 * (material.interaction.curvature(material.spacing) / material.site_mass / 57.146).sqrt())
+fn squared_frequency(material: &Material, size: u32) -> f64 {
+    let cells = size.max(SMALLEST_BLOCK as u32) as i32;
+    let plan = Plan {
+        sites: Sites {
+            outline: Outline::Rhombohedron([2 * cells, cells, cells]),
+            frame: Frame::of_blocks(material.spacing),
+            removed: Vec::new(),
+        },
+        element: size as u16,
+        regions: Vec::new(),
+        spacing: material.spacing,
+    };
+    let mesh = Mesh::new(&plan);
+    let position = mesh.node_positions();
+    Forces::new(mesh, *material).squared_frequency_bound(&position)
 }

@@ -5,7 +5,7 @@ use crate::mesh::solid::region::{Region, Shape as RegionShape};
 use crate::mesh::solid::sites::{Frame, Outline, Range3, Sites};
 use crate::setup::SetupError;
 use crate::study::case::Solid;
-use crate::study::case::solid::{self as case, Axis, Depth, Face, Notch, Shape, Side};
+use crate::study::case::solid::{self as case, Axis, Depth, Face, Loading, Notch, Pull, Shape, Side};
 
 /// Sites along an edge that 32-bit numbers leave room for.
 const MOST_SITES_ALONG: f64 = 5e8;
@@ -148,6 +148,23 @@ impl Laid {
     /// Where a face that moves goes to, of length 1.
     pub fn direction(&self, face: Face, direction: Option<[f64; 3]>) -> [f64; 3] {
         direction.unwrap_or_else(|| self.outward(face))
+    }
+
+    /// Where the loading of a solid pulls or pushes, of length 1.
+    pub fn pull_direction(&self, solid: &Solid) -> [f64; 3] {
+        let (face, pull) = match solid.loading {
+            Loading::Velocity { face, direction, .. } => return self.direction(face, direction),
+            Loading::Impact { face, .. } => return self.outward(face),
+            Loading::Traction { face, pull, .. } | Loading::Pulse { face, pull, .. } => (face, pull),
+            Loading::OpposedTractions { axis, pull, .. } => (Face { axis, side: Side::High }, pull),
+        };
+        match pull {
+            Pull::Pressure(_) => self.outward(face),
+            Pull::Stress(parts) => {
+                let length = dot(parts, parts).sqrt();
+                parts.map(|part| part / length)
+            }
+        }
     }
 
     /// The length that a moving face strains, nm: displacement over it is the nominal strain. It is the strain along the motion

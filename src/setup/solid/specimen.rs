@@ -42,6 +42,8 @@ pub struct Specimen {
     pub held: Option<String>,
     /// What loads it, in words.
     pub loading: String,
+    /// Where the loading pulls, of length 1.
+    pub direction: [f64; 3],
     /// By falling size.
     pub kinds: Vec<Kind>,
     pub nodes: u64,
@@ -76,6 +78,7 @@ impl Specimen {
             severed: severed(solid, laid),
             held: solid.held.as_ref().map(|held| words::held(solid, held, laid)),
             loading: words::loading(solid, laid),
+            direction: laid.pull_direction(solid),
             leftover_share: is_meshed.then(|| leftover as f64 / sites.max(1) as f64),
             absent: wanted.iter().rev().find(has).copied().filter(|_| is_meshed),
             computation: computation(case, solid, laid, &kinds),

@@ -17,17 +17,38 @@ const IN_FULL: [(&str, &str); 22] = [
     ("smooth", "at-cutoff: {smooth: {from: 0.34 nm, to: 0.43 nm}}"),
     ("strain-rate", "loading: {strain-rate: {rate: 4.6e6 /s}}"),
     ("velocity", "loading: {velocity: {face: a2-high, speed: 20 m/s}}"),
-    ("traction", "loading: {traction: {face: a2-high, stress: [0 GPa, 1.6 GPa, 0 GPa]}}"),
+    (
+        "traction",
+        "loading: {traction: {face: a2-high, stress: [0 GPa, 1.6 GPa, 0 GPa]}}",
+    ),
     (
         "opposed-tractions",
         "loading: {opposed-tractions: {axis: a2, thickness: a3, stress: [0 GPa, 1.6 GPa, 0 GPa]}}",
     ),
-    ("pulse", "loading: {pulse: {face: a3-high, duration: 10 ps, pressure: 0.1 GPa}}"),
-    ("impact", "loading: {impact: {face: a3-high, radius: 50 nm, speed: 100 m/s}}"),
-    ("ball", "regions: [{ball: {center: [10 nm, 20 nm, 1 nm], radius: 5 nm, element: 1}}]"),
-    ("cylinder", "regions: [{cylinder: {along: a3, center: [10 nm, 20 nm, 1 nm], radius: 5 nm, element: 1}}]"),
-    ("slab", "regions: [{slab: {normal: a2, at: 40 nm, half-width: 5 nm, element: 1}}]"),
-    ("plane", "notch: {plane: {normal: a2, at: 40 nm, from: a1-low, depth: 20 nm}}"),
+    (
+        "pulse",
+        "loading: {pulse: {face: a3-high, duration: 10 ps, pressure: 0.1 GPa}}",
+    ),
+    (
+        "impact",
+        "loading: {impact: {face: a3-high, radius: 50 nm, speed: 100 m/s}}",
+    ),
+    (
+        "ball",
+        "regions: [{ball: {center: [10 nm, 20 nm, 1 nm], radius: 5 nm, element: 1}}]",
+    ),
+    (
+        "cylinder",
+        "regions: [{cylinder: {along: a3, center: [10 nm, 20 nm, 1 nm], radius: 5 nm, element: 1}}]",
+    ),
+    (
+        "slab",
+        "regions: [{slab: {normal: a2, at: 40 nm, half-width: 5 nm, element: 1}}]",
+    ),
+    (
+        "plane",
+        "notch: {plane: {normal: a2, at: 40 nm, from: a1-low, depth: 20 nm}}",
+    ),
     ("blocks", "notch: {blocks: {from: [0, 20, 0], to: [10, 21, 1]}}"),
     ("gauges", "observe: [{gauges: {axis: a3, at: [10 nm, 20 nm]}}]"),
     ("gauss", "summation: {gauss: 2}"),
