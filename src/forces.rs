@@ -53,8 +53,8 @@ use kinds::SampledStrings;
 use pulp::Arch;
 use tile::Tile;
 
-/// Node positions or forces: x and y, one entry a node.
-pub type Planes = [Vec<f64>; 2];
+/// Node positions or forces: a plane an axis, one entry a node.
+pub type Planes<const D: usize = 2> = [Vec<f64>; D];
 
 /// Elements in one parallel task. It sets no order of summation.
 const CHUNK: usize = 128;
@@ -159,7 +159,7 @@ impl Forces {
         let bordering = share::bordering(&domain, &mesh, &interfaces, &atoms);
         let halo = Halo::ask(&domain, &mesh, &bordering);
         let first_cut = start.elapsed();
-        let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.triangles());
+        let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.grouped());
         let reference = mesh.node_positions();
         let largest = reference
             .iter()
@@ -305,7 +305,7 @@ impl Forces {
 
     /// Whether an interface is one of my triangles'.
     fn is_mine(&self, interface: usize) -> bool {
-        let triangles = self.domain.triangles();
+        let triangles = self.domain.grouped();
         let both = self.interfaces.pairs[interface].both();
         both.iter().any(|&triangle| triangles.contains(&(triangle as usize)))
     }

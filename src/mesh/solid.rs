@@ -14,6 +14,7 @@ mod tiling;
 
 use std::ops::Range;
 
+use super::grouped::Grouped;
 use element::{Element, Shape};
 use region::Region;
 use sites::Sites;
@@ -202,5 +203,32 @@ impl Solid {
     pub fn carriers(&self, element: usize, local: [i32; 3]) -> impl Iterator<Item = (usize, f64)> + use<> {
         let weights = self.elements[element].shape_functions(local);
         self.nodes_of(element).zip(weights).filter(|(_, weight)| *weight != 0.0)
+    }
+}
+
+impl Grouped for Solid {
+    fn element_count(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn node_count(&self) -> usize {
+        Self::node_count(self)
+    }
+
+    fn grouped(&self) -> usize {
+        self.parts
+    }
+
+    fn group_number(&self, element: usize) -> usize {
+        Self::group_number(self, element)
+    }
+
+    fn group_count(&self) -> usize {
+        self.groups.len()
+    }
+
+    fn group(&self, number: usize) -> [Range<usize>; 2] {
+        let group = &self.groups[number];
+        [group.elements.clone(), group.nodes()]
     }
 }

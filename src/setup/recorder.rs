@@ -114,11 +114,11 @@ impl Observer for Recorder<'_> {
     type Error = RunCaseError;
 
     fn probe(&mut self, reading: &Reading) -> Result<(), RunCaseError> {
-        self.part.probes.push(*reading.probe);
-        self.part.profiles.extend_from_slice(reading.profile);
-        self.part.tractions.extend_from_slice(reading.traction);
-        self.part.gauges.extend_from_slice(reading.gauges);
-        self.part.bonds.extend_from_slice(reading.bonds);
+        self.part.probes.push(reading.probe);
+        self.part.profiles.extend_from_slice(&reading.profile);
+        self.part.tractions.extend_from_slice(&reading.traction);
+        self.part.gauges.extend_from_slice(&reading.gauges);
+        self.part.bonds.extend_from_slice(&reading.bonds);
         Ok(())
     }
 

@@ -256,9 +256,9 @@ fn a_run_with_a_crack_from_the_right_goes_on_from_its_checkpoint_as_if_it_had_no
     parted.iter_mut().for_each(|event| *event = frame.event(event));
     assert!(!parted.is_empty());
     let mut checkpoint = make().checkpoint();
-    checkpoint.parted_bonds = parted;
+    checkpoint.kept.parted_bonds = parted;
     let place = |event: &BondEvent| (event.column, event.row, event.direction);
-    checkpoint.parted_bonds.sort_unstable_by_key(place);
+    checkpoint.kept.parted_bonds.sort_unstable_by_key(place);
     let mut resumed = make();
     resumed.restore(&checkpoint).expect("it is of this specimen");
     assert_eq!(resumed.checkpoint(), checkpoint);
