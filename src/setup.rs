@@ -18,12 +18,19 @@ pub use slab::burden::burdens;
 pub use slab::geometry::{Geometry, Notch, Size};
 pub use slab::leftovers::Leftovers;
 
+use std::time::Duration;
+
+use crate::forces::Summation;
 use crate::potential::{AtCutoff, CutPotential, HarmonicBond, Interaction, LennardJones, Morse};
-use crate::study::case;
+use crate::solver::{self, TimeStep};
+use crate::study::case::{self, Case};
 use crate::units::U_IN_EV_PS2_PER_NM2;
 
 /// Longest cutoff in units of the distance of lowest energy.
 const MOST_MINIMA: f64 = 10.0;
+
+/// What the stresses of a solid are divided by: they are pressures.
+const NO_THICKNESS: f64 = 1.0;
 
 /// What two atoms do to each other, and the mass of one, eV ps^2/nm^2.
 fn interaction(atoms: &case::Material) -> Result<(Interaction, f64), SetupError> {
@@ -56,4 +63,40 @@ fn interaction(atoms: &case::Material) -> Result<(Interaction, f64), SetupError>
         });
     }
     Ok((interaction, atoms.mass * U_IN_EV_PS2_PER_NM2))
+}
+
+/// How a case is computed; `time_of` tells when its loading has made a nominal strain, ps.
+fn settings(case: &Case, time_of: impl Fn(f64) -> f64) -> solver::Settings {
+    solver::Settings {
+        time_step: match case.run.time_step {
+            case::TimeStep::Auto { fraction } => TimeStep::Auto { fraction },
+            case::TimeStep::Given(step) => TimeStep::Given(step),
+        },
+        summation: match case.run.summation {
+            case::Summation::Exact => Summation::Exact,
+            case::Summation::Gauss { points } => Summation::Gauss { points },
+            case::Summation::StrictGauss { points } => Summation::StrictGauss { points },
+            case::Summation::Nodal => Summation::Nodal,
+        },
+        consistent_mass: match case.run.mass {
+            case::MassMatrix::Lumped => 0.0,
+            case::MassMatrix::Blend(share) => share,
+        },
+        relax: case.run.relax.is_some(),
+        until: solver::Until {
+            strain: case.run.until.strain,
+            time: case.run.until.time,
+            crack_length: case.run.until.crack_length,
+            arrest: case.run.until.arrest,
+            after_branch: case.run.until.after_branch,
+            leaves_plane: case.run.until.leaves_the_plane,
+        },
+        probe_every: case.probes.every,
+        snapshot_every: case.snapshots.every.map(|interval| match interval {
+            case::SnapshotInterval::Strain(strain) => time_of(strain),
+            case::SnapshotInterval::Time(time) => time,
+        }),
+        checkpoint_every: Duration::from_secs_f64(case.execution.checkpoint_every),
+        thickness: NO_THICKNESS,
+    }
 }

@@ -104,8 +104,17 @@ pub enum SetupError {
         needed: u64,
         present: u64,
     },
-    /// What computes solids is not part of this program.
-    Solid,
+    /// How deep a face is that is held or moves, nm, and the cells per edge of the elements.
+    FaceTooThin {
+        depth: f64,
+        element: u32,
+    },
+    /// What a solid may be asked for and this version cannot compute.
+    NotThere {
+        subject: Subject,
+        message: &'static str,
+        help: &'static str,
+    },
     Solver(#[from] SolverError),
 }
 
@@ -274,7 +283,15 @@ impl SetupError {
                 )
             }
             .with(Subject::Element, "with these elements"),
-            Self::Solid => Refusal::new(Subject::Length, "solids cannot be computed yet", "compute a slab"),
+            Self::FaceTooThin { depth, element } => Refusal::new(
+                Subject::Face,
+                format!(
+                    "no element lies whole within {depth:.3} nm of this face, where elements have {element} cells per edge: nothing \
+                     would be held or moved"
+                ),
+                "take more layers, or smaller elements there",
+            ),
+            Self::NotThere { subject, message, help } => Refusal::new(*subject, *message, *help),
             Self::Solver(SolverError::StepTooLong { given, limit }) => Refusal::new(
                 Subject::TimeStep,
                 format!(

@@ -6,11 +6,8 @@ pub mod estimate;
 pub mod geometry;
 pub mod leftovers;
 
-use std::time::Duration;
-
 use super::{SetupError, interaction};
 use crate::domain::Ranks;
-use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Layers, Sponge, Stretching};
 use crate::material::{Material, WaveSpeeds};
@@ -18,7 +15,7 @@ use crate::mesh::cut::{Crack, Side, WantedEnd};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::{Layout, SiteSet};
 use crate::mesh::{Mesh, Plan};
-use crate::solver::{self, Solver, TimeStep};
+use crate::solver::{self, Solver};
 use crate::study::case::{self, Case, Slab};
 
 /// Atoms along a side. Columns are counted from the lowest row, so that they reach as far to the left as there are
@@ -195,35 +192,7 @@ pub fn shared_solver(case: &Case, slab: &Slab, ranks: Ranks) -> Result<Solver, S
 fn settings(case: &Case, slab: &Slab) -> solver::Settings {
     let case::Loading::StrainRate { rate, .. } = slab.loading;
     solver::Settings {
-        time_step: match case.run.time_step {
-            case::TimeStep::Auto { fraction } => TimeStep::Auto { fraction },
-            case::TimeStep::Given(step) => TimeStep::Given(step),
-        },
-        summation: match case.run.summation {
-            case::Summation::Exact => Summation::Exact,
-            case::Summation::Gauss { points } => Summation::Gauss { points },
-            case::Summation::StrictGauss { points } => Summation::StrictGauss { points },
-            case::Summation::Nodal => Summation::Nodal,
-        },
-        consistent_mass: match case.run.mass {
-            case::MassMatrix::Lumped => 0.0,
-            case::MassMatrix::Blend(share) => share,
-        },
-        relax: case.run.relax.is_some(),
-        until: solver::Until {
-            strain: case.run.until.strain,
-            time: case.run.until.time,
-            crack_length: case.run.until.crack_length,
-            arrest: case.run.until.arrest,
-            after_branch: case.run.until.after_branch,
-            leaves_plane: case.run.until.leaves_the_plane,
-        },
-        probe_every: case.probes.every,
-        snapshot_every: case.snapshots.every.map(|interval| match interval {
-            case::SnapshotInterval::Strain(strain) => strain / rate,
-            case::SnapshotInterval::Time(time) => time,
-        }),
-        checkpoint_every: Duration::from_secs_f64(case.execution.checkpoint_every),
         thickness: slab.material.thickness,
+        ..super::settings(case, |strain| strain / rate)
     }
 }

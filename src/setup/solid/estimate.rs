@@ -1,7 +1,7 @@
 //! What a solid will cost, before anything is computed.
 
 use super::specimen::{Kind, Specimen, site_count};
-use super::{lay_out, material, strain_rate};
+use super::{lay_out, material, refuse_what_is_not_there, strain_rate};
 use crate::forces::solid::Forces;
 use crate::material::Material;
 use crate::mesh::solid::sites::{Frame, Outline, Sites};
@@ -33,6 +33,7 @@ pub struct Estimator {
 
 impl Estimator {
     pub fn estimate(&mut self, case: &Case, solid: &Solid) -> Result<Estimate, SetupError> {
+        refuse_what_is_not_there(case, solid)?;
         let material = material(solid)?;
         let laid = lay_out(solid, material.spacing)?;
         refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, ranks(case))?;

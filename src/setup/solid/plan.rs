@@ -3,6 +3,7 @@
 use crate::mesh::solid::Plan;
 use crate::mesh::solid::region::{Region, Shape as RegionShape};
 use crate::mesh::solid::sites::{Frame, Outline, Range3, Sites};
+use super::experiment::opposite;
 use crate::setup::SetupError;
 use crate::study::case::Solid;
 use crate::study::case::solid::{self as case, Axis, Depth, Face, Loading, Notch, Pull, Shape, Side};
@@ -171,18 +172,44 @@ impl Laid {
     /// of an even stretching between the moving part and what is held on the other side, or where the face moves along itself
     /// the shear.
     pub fn strained_length(&self, solid: &Solid, face: Face, direction: Option<[f64; 3]>, depth: Depth) -> f64 {
-        let opposite = Face {
-            side: match face.side {
-                Side::Low => Side::High,
-                Side::High => Side::Low,
-            },
-            ..face
-        };
-        let held = solid.held.as_ref().filter(|held| held.faces.contains(&opposite));
-        let held = held.map_or(0.0, |held| self.depth(face.axis, held.depth));
-        let free = self.thickness(face.axis) - self.depth(face.axis, depth) - held;
+        let free = self.free_length(solid, face, depth);
         let pull = dot(self.direction(face, direction), self.normal(face.axis)).abs();
         if pull > ALONG_ITSELF { free / pull } else { free }
+    }
+
+    /// Between a face that moves to a depth and what is held opposite, nm.
+    pub fn free_length(&self, solid: &Solid, face: Face, depth: Depth) -> f64 {
+        let held = solid.held.as_ref().filter(|held| held.faces.contains(&opposite(face)));
+        let held = held.map_or(0.0, |held| self.depth(face.axis, held.depth));
+        self.thickness(face.axis) - self.depth(face.axis, depth) - held
+    }
+
+    /// Thickness of the layer of a site, nm; nothing in a box, which begins and ends with the middles of sites.
+    pub fn depth_of_a_layer(&self, axis: Axis) -> f64 {
+        match self.plan.sites.outline {
+            Outline::Rhombohedron(_) => self.depth(axis, Depth::Layers(1)),
+            Outline::Box(_) => 0.0,
+        }
+    }
+
+    /// The diagonal of a cell, by which the sites of blocks end before their edges, nm; nothing in a box.
+    pub fn first_cell(&self) -> [f64; 3] {
+        let vectors = self.plan.sites.frame.vectors;
+        match self.plan.sites.outline {
+            Outline::Rhombohedron(_) => [0, 1, 2].map(|axis| vectors.iter().map(|vector| vector[axis]).sum()),
+            Outline::Box(_) => [0.0; 3],
+        }
+    }
+
+    /// Area of a face over the sites on it, nm^2. Of blocks each site has a cell, whatever a slot has taken of the face.
+    pub fn area_of_a_site(&self, axis: Axis, sites: usize) -> f64 {
+        match &self.plan.sites.outline {
+            Outline::Rhombohedron(extent) => {
+                let cells: f64 = (0..3).filter(|&other| other != axis.index()).map(|other| f64::from(extent[other])).product();
+                self.area(axis) / cells
+            }
+            Outline::Box(_) => self.area(axis) / sites.max(1) as f64,
+        }
     }
 
     fn region(&self, shape: &case::RegionShape) -> RegionShape {
