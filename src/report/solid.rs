@@ -42,6 +42,8 @@ pub struct Specimen {
     pub nodes: u64,
     pub elements: u64,
     pub atoms: u64,
+    /// Elements that are single atoms.
+    pub atoms_alone: u64,
     /// Share of the atoms in smaller elements than asked for.
     pub leftover_share: Option<f64>,
     /// Equal for cases that are one computation, however they were asked for.

@@ -40,7 +40,7 @@ pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
 /// What all cases are drawn over: the strain where each has one.
 fn abscissa(cases: &[Analysed]) -> (bool, String) {
     let mut known = cases.iter().filter_map(Analysed::series);
-    match known.clone().next().is_some() && known.all(Series::has_strain) {
+    match known.clone().next().is_some() && known.all(|series| series.is_driven) {
         true => (true, "nominal strain (%)".to_owned()),
         false => (false, "time (ps)".to_owned()),
     }
@@ -50,7 +50,11 @@ fn curves(cases: &[Analysed], of: impl Fn(&Analysed, &Series) -> Vec<f64>) -> Co
     let (by_strain, _) = abscissa(cases);
     let curve = |(style, case): (usize, &Analysed)| {
         let points = case.series().map(|series| {
-            let x = if by_strain { series.over() } else { series.time.clone() };
+            let x = if by_strain {
+                series.percent()
+            } else {
+                series.time.clone()
+            };
             x.into_iter().zip(of(case, series)).collect()
         });
         Curve {
@@ -96,8 +100,8 @@ fn broken(cases: &[Analysed]) -> Chart {
         cases,
         "broken-bonds",
         "Broken bonds",
-        "Bonds between nearest neighbours of the crystal at rest that are longer than the cutoff, less those at the start. \
-         Slip breaks bonds as cracks do.",
+        "Pairs of atoms that have left the cutoff since the start, less those that have come within it: cracks and slip break \
+         bonds, and what is pressed together gains some.",
         "broken bonds",
         curves(cases, |_, series| {
             let start = series.broken.first().copied().unwrap_or(0.0);

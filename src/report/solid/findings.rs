@@ -8,9 +8,9 @@ use super::series::Series;
 pub struct Findings {
     /// Greatest mean stress in the direction of the pull, whatever its sign.
     pub peak: Option<Moment>,
-    /// When bonds are first seen to be broken that were whole at the start.
+    /// When bonds are first seen to be broken.
     pub first_break: Option<Moment>,
-    /// Broken bonds at the end that were whole at the start.
+    /// Broken bonds at the end.
     pub broken: Option<f64>,
     /// Slope of the stress over the strain before anything breaks, least squares.
     pub modulus: Option<f64>,
@@ -44,7 +44,7 @@ impl Findings {
         let moment = |probe: usize| Moment {
             probe,
             time: series.time[probe],
-            strain: Some(series.strain[probe]).filter(|strain| strain.is_finite()),
+            strain: series.is_driven.then(|| series.strain[probe]),
             stress: pull[probe],
         };
         let largest = (0..pull.len()).max_by(|&a, &b| pull[a].abs().total_cmp(&pull[b].abs()));
@@ -63,6 +63,9 @@ impl Findings {
 }
 
 fn modulus(series: &Series, pull: &[f64], breaks: Option<usize>) -> Option<f64> {
+    if !series.is_driven {
+        return None;
+    }
     let whole = breaks.unwrap_or(pull.len());
     let points = series.strain.iter().zip(pull).take(whole);
     let points: Vec<_> = points.filter(|(strain, _)| **strain <= SMALL_STRAIN).collect();
@@ -140,6 +143,7 @@ mod tests {
                 ..Specimen::default()
             },
             series: Some(Series {
+                is_driven: strain(1.0).is_finite(),
                 strain: of(&strain),
                 stress: time
                     .iter()

@@ -13,13 +13,13 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         (
             "Nominal strain",
             "Displacement of the moving face over the length between it and what is held opposite, along the motion; under \
-             loadings that prescribe no motion there is none."
+             other loadings it is that of the two faces that the loading acts along."
                 .to_owned(),
         ),
         (
             "Broken bonds",
-            "Bonds between nearest neighbours of the crystal at rest that are longer than the cutoff. Slip along a plane \
-             breaks bonds too, and makes others that are not counted."
+            "Pairs of atoms that have left the cutoff since the start, less those that have come within it, from the energy \
+             that they release there. Slip along a plane breaks bonds too, and makes others."
                 .to_owned(),
         ),
         (

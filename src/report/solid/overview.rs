@@ -99,6 +99,10 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "bonds broken at the end", |case| {
             case.findings.broken.map(|broken| count(broken.max(0.0) as u64))
         }),
+        row(cases, "borders of elements open at the end", |case| {
+            let open = case.series()?.open_interfaces.last().copied()?;
+            (case.solid.specimen.elements > case.solid.specimen.atoms_alone).then(|| count(open as u64))
+        }),
         row(cases, "period (ps)", |case| {
             let (period, seen) = case.findings.period?;
             Some(format!("{} over {} periods", significant(period, 4), seen))

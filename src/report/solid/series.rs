@@ -3,9 +3,11 @@
 /// All columns have one entry a probe.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Series {
+    /// Whether the loading prescribes the nominal strain.
+    pub is_driven: bool,
     /// ps
     pub time: Vec<f64>,
-    /// Nominal strain; not a number where the loading makes none.
+    /// Nominal strain.
     pub strain: Vec<f64>,
     /// Mean stress xx, yy, zz, yz, xz, xy, eV/nm^3.
     pub stress: Vec<[f64; 6]>,
@@ -17,8 +19,10 @@ pub struct Series {
     pub release: Vec<f64>,
     /// Of the loading on the solid, eV/nm.
     pub force: Vec<[f64; 3]>,
-    /// Bonds longer than the cutoff.
+    /// Pairs that have left the cutoff since the start, less those that have come within it.
     pub broken: Vec<f64>,
+    /// Borders between elements that have parted or slipped since the start.
+    pub open_interfaces: Vec<f64>,
     /// Of the atoms, K; not a number where there are none.
     pub temperature: Vec<f64>,
     pub gauges: Vec<Gauge>,
@@ -47,16 +51,8 @@ impl Series {
         self.stress.iter().map(|stress| along(stress, direction)).collect()
     }
 
-    /// Whether the loading makes a nominal strain.
-    pub fn has_strain(&self) -> bool {
-        self.strain.iter().any(|strain| strain.is_finite())
-    }
-
-    /// What to draw over: strain in percent, or time.
-    pub fn over(&self) -> Vec<f64> {
-        match self.has_strain() {
-            true => self.strain.iter().map(|strain| 100.0 * strain).collect(),
-            false => self.time.clone(),
-        }
+    /// Nominal strain in percent.
+    pub fn percent(&self) -> Vec<f64> {
+        self.strain.iter().map(|strain| 100.0 * strain).collect()
     }
 }

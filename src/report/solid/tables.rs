@@ -127,6 +127,7 @@ fn series(cases: &[Analysed]) -> Vec<Column> {
         rows.number("force_y_ev_per_nm", force(1)),
         rows.number("force_z_ev_per_nm", force(2)),
         rows.number("broken_bonds", |row| row.1.broken[row.2]),
+        rows.number("open_interfaces", |row| row.1.open_interfaces[row.2]),
         rows.number("temperature_k", |row| row.1.temperature[row.2]),
     ]
 }
