@@ -1,8 +1,9 @@
 //! The run of one specimen in time: the loop, its observers, and when it stops. A specimen is a [`Body`] with
-//! [`Instruments`]: a [`Slab`] in two dimensions.
+//! [`Instruments`]: a [`Slab`] in two dimensions, a [`Solid`] in three.
 
 mod body;
 pub mod checkpoint;
+mod clock;
 mod cost;
 mod error;
 mod ledger;
@@ -11,16 +12,20 @@ mod observer;
 mod resume;
 mod schedule;
 pub mod slab;
+pub mod solid;
 mod step;
+mod temperature;
 mod time_step;
 mod until;
 
-pub use body::{Body, Clock, Instruments, Totals};
+pub use body::{Body, Instruments, Totals};
+pub use clock::Clock;
 pub use cost::{Cost, Phase};
 pub use error::{RunError, SolverError};
 pub use ledger::{Balance, Ledger};
 pub use observer::{Moment, Observer, Progress};
 pub use slab::{Reading, Slab, j_integral, site_volume};
+pub use solid::Solid;
 pub use time_step::TimeStep;
 pub use until::{Ending, Until};
 
@@ -34,6 +39,10 @@ use crate::relaxation::RelaxationError;
 use crate::state::State;
 use schedule::Schedule;
 use step::Looks;
+
+/// Largest force left on a node when the motion begins, over the strength of a bond. Over a specimen of a thousand rows the
+/// longest wave that this leaves is a strain of some 1e-7.
+const RESIDUAL_AT_START: f64 = 1e-8;
 
 /// What a run is asked to do.
 #[derive(Clone, Debug, PartialEq)]

@@ -7,6 +7,7 @@
 //! Interfaces are used where the potential reaches nearest neighbours alone. One is intact as long as all of its bonds are
 //! within the cutoff and no second neighbours across it are; then it opens for good.
 
+mod drift;
 mod edges;
 mod faces;
 mod frequency;
@@ -16,6 +17,7 @@ mod measure;
 mod pairs;
 mod points;
 pub mod referee;
+mod sums;
 mod sweep;
 #[cfg(test)]
 mod tests;
@@ -24,21 +26,18 @@ mod vector;
 pub use measure::Measure;
 
 use std::collections::HashMap;
+use std::time::Duration;
 
 use pulp::Arch;
-use rayon::prelude::*;
 
-use crate::lanes::MOST;
+use crate::domain::{Domain, Halo, Ranks};
 use crate::material::Material;
 use crate::mesh::solid::Solid;
 use crate::mesh::solid::element::Shape;
 use crate::mesh::solid::interfaces::{Interfaces, SECOND_NEIGHBOURS};
-use crate::potential::{CutPotential, PairShape, with_law};
 use inside::Class;
-use measure::PARTS;
 use pairs::Pairs;
-use points::Points;
-use sweep::{Field, Sweep, Tile};
+use sweep::Tile;
 
 /// Node positions or forces: x, y and z, one entry a node.
 pub type Planes = [Vec<f64>; 3];
@@ -57,9 +56,16 @@ const LISTED_BEYOND_CUTOFF: f64 = 0.3;
 /// Largest coordinate over the largest of the specimen. No fragment flies so far in the time of a run.
 const FARTHEST: f64 = 100.0;
 
+/// What a part costs beside an atom.
+const PART: f64 = 3.0;
+
 /// The force computation of one solid: its mesh and material and what it remembers between steps.
 pub struct Forces {
     mesh: Solid,
+    domain: Domain,
+    halo: Halo,
+    /// Others' parts that border mine, ascending.
+    bordering: Vec<u32>,
     material: Material,
     interfaces: Interfaces,
     classes: HashMap<(Shape, i32), Vec<Class>>,
@@ -71,35 +77,51 @@ pub struct Forces {
     farthest: f64,
     arch: Arch,
     searches: u64,
+    search_time: Duration,
+    exchanges: u64,
+    exchange_time: Duration,
 }
 
 impl Forces {
     pub fn new(mesh: Solid, material: Material) -> Self {
+        Self::shared(Ranks::alone(), mesh, material)
+    }
+
+    /// The part of this rank in the forces that all ranks compute together.
+    pub fn shared(ranks: Ranks, mesh: Solid, material: Material) -> Self {
         let reach = material.interaction.cutoff() / material.spacing;
-        let reaches_second_neighbours = reach > SECOND_NEIGHBOURS;
         let interfaces = Interfaces::new(&mesh, reach);
         let mut classes = HashMap::new();
         for group in mesh.groups() {
             let of_kind = || inside::classes(group.shape, group.size, reach + LISTED_BEYOND_CUTOFF);
             classes.entry((group.shape, group.size)).or_insert_with(of_kind);
         }
-        let intact = if reaches_second_neighbours { 0.0 } else { 1.0 };
-        let largest = mesh
-            .node_positions()
+        let intact = if reach > SECOND_NEIGHBOURS { 0.0 } else { 1.0 };
+        let places = mesh.node_positions();
+        let largest = places
             .iter()
             .flatten()
             .fold(mesh.spacing, |most: f64, place| most.max(place.abs()));
+        let parts = mesh.parts;
+        let domain = Domain::new(ranks, &mesh, |element| if element < parts { PART } else { 1.0 });
+        let bordering = bordering(&domain, &interfaces);
         Self {
             intact: vec![intact; interfaces.pairs.len()],
-            tiles: sweep::tiles(&mesh, &interfaces, rayon::current_num_threads()),
+            tiles: sweep::tiles(&mesh, &interfaces, domain.grouped(), rayon::current_num_threads()),
+            halo: Halo::ask(&domain, &mesh, &bordering),
             farthest: FARTHEST * largest,
             mesh,
+            domain,
+            bordering,
             material,
             interfaces,
             classes,
             pairs: None,
             arch: Arch::new(),
             searches: 0,
+            search_time: Duration::ZERO,
+            exchanges: 0,
+            exchange_time: Duration::ZERO,
         }
     }
 
@@ -109,6 +131,14 @@ impl Forces {
 
     pub fn material(&self) -> &Material {
         &self.material
+    }
+
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    pub fn domain_mut(&mut self) -> &mut Domain {
+        &mut self.domain
     }
 
     /// Numbers of the interfaces that are no longer intact, ascending: the only memory that a restart must keep.
@@ -123,158 +153,46 @@ impl Forces {
         self.open(open);
     }
 
+    /// The two elements of an interface.
+    pub fn beside(&self, interface: u32) -> [u32; 2] {
+        self.interfaces.pairs[interface as usize]
+    }
+
     pub fn interface_count(&self) -> usize {
         self.intact.len()
     }
 
-    /// How often neighbours were searched.
-    pub fn searches(&self) -> u64 {
-        self.searches
+    /// The parts on both sides of an interface.
+    pub fn beside(&self, interface: u32) -> [u32; 2] {
+        self.interfaces.pairs[interface as usize]
+    }
+
+    /// How often neighbours were searched, and for how many seconds.
+    pub fn search_cost(&self) -> (u64, f64) {
+        (self.searches, self.search_time.as_secs_f64())
+    }
+
+    /// How often ranks talked, and for how many seconds they waited for each other.
+    pub fn exchange_cost(&self) -> (u64, f64) {
+        (self.exchanges, self.exchange_time.as_secs_f64())
     }
 
     fn open(&mut self, interfaces: &[u32]) {
         interfaces.iter().for_each(|&number| self.intact[number as usize] = 0.0);
         self.pairs = None;
     }
-
-    /// Forces on all nodes, eV/nm.
-    pub fn compute(&mut self, position: &Planes, force: &mut Planes) -> Result<(), ForceError> {
-        with_law!(self.material.interaction, law => self.sum::<_, false>(&law, position, force, &mut Measure::default()))
-    }
-
-    /// The same forces to the bit, and what every element holds.
-    pub fn compute_and_measure(
-        &mut self,
-        position: &Planes,
-        force: &mut Planes,
-        measure: &mut Measure,
-    ) -> Result<(), ForceError> {
-        measure.fit(self.mesh.elements.len());
-        with_law!(self.material.interaction, law => self.sum::<_, true>(&law, position, force, measure))
-    }
-
-    fn sum<S: PairShape, const MEASURED: bool>(
-        &mut self,
-        law: &CutPotential<S>,
-        position: &Planes,
-        force: &mut Planes,
-        measure: &mut Measure,
-    ) -> Result<(), ForceError> {
-        loop {
-            let irregular = self.sum_tiles::<S, MEASURED>(law, position, force, measure);
-            if irregular.is_empty() {
-                break;
-            }
-            self.open(&irregular);
-        }
-        let is_current = self.pairs.as_mut().is_some_and(|pairs| pairs.follow(position));
-        if !is_current {
-            self.search(position)?;
-        }
-        let arch = self.arch;
-        if let Some(pairs) = &mut self.pairs {
-            pairs.sum::<S, MEASURED>(arch, law);
-        }
-        self.add_pairs::<MEASURED>(force, measure);
-        Ok(())
-    }
-
-    /// Sums of all parts; returns the interfaces that are no longer regular, ascending.
-    fn sum_tiles<S: PairShape, const MEASURED: bool>(
-        &self,
-        law: &CutPotential<S>,
-        position: &Planes,
-        force: &mut Planes,
-        measure: &mut Measure,
-    ) -> Vec<u32> {
-        let field = Field {
-            law: *law,
-            mesh: &self.mesh,
-            classes: &self.classes,
-            intact: &self.intact,
-            position,
-        };
-        let mut rest = force.each_mut().map(|plane| &mut plane[..]);
-        let mut held = measure.planes_mut().map(|plane| &mut plane[..]);
-        let mut tasks = Vec::with_capacity(self.tiles.len());
-        for tile in &self.tiles {
-            let force = rest.each_mut().map(|plane| split_off(plane, tile.nodes.len()));
-            let held = held.each_mut().map(|plane| split_off(plane, tile.elements.len()));
-            tasks.push(Sweep::<S, MEASURED> {
-                field: &field,
-                tile,
-                force,
-                held,
-            });
-        }
-        let irregular = tasks.into_par_iter().flat_map_iter(|sweep| self.arch.dispatch(sweep));
-        let mut irregular: Vec<u32> = irregular.collect();
-        irregular.sort_unstable();
-        irregular.dedup();
-        irregular
-    }
-
-    fn search(&mut self, position: &Planes) -> Result<(), ForceError> {
-        // Written so that a position that is not a number is refused.
-        let is_near = |node: &usize| position.iter().all(|plane| plane[*node].abs() <= self.farthest);
-        if let Some(node) = (0..self.mesh.node_count()).find(|node| !is_near(node)) {
-            let element = self.mesh.element_of_node(node);
-            return Err(ForceError::FlewAway { element });
-        }
-        let points = Points::new(&self.mesh, &self.interfaces, &self.intact, position);
-        let are_joined = |one: u32, other: u32| {
-            let numbers = self.interfaces.of(one as usize).iter();
-            let mut joining = numbers.filter(|&&number| self.intact[number as usize] > 0.0);
-            joining.any(|&number| self.interfaces.pairs[number as usize].contains(&other))
-        };
-        let lengths = [self.material.interaction.cutoff(), self.material.spacing];
-        let mut pairs = Pairs::search(points, are_joined, position, lengths);
-        pairs.follow(position);
-        self.pairs = Some(pairs);
-        self.searches += 1;
-        Ok(())
-    }
-
-    /// Brings forces on points to the nodes that carry them, and what pairs hold to their elements.
-    fn add_pairs<const MEASURED: bool>(&self, force: &mut Planes, measure: &mut Measure) {
-        let Some(pairs) = &self.pairs else {
-            return;
-        };
-        let points = &pairs.points;
-        for point in 0..points.of_parts() {
-            let [x, y, z] = pairs.force[point / MOST].map(|plane| plane[point % MOST]);
-            for &(node, weight) in points.carriers(point) {
-                let node = node as usize;
-                force[0][node] = x.mul_add(weight, force[0][node]);
-                force[1][node] = y.mul_add(weight, force[1][node]);
-                force[2][node] = z.mul_add(weight, force[2][node]);
-            }
-        }
-        let [first_node, first_group] = [self.mesh.part_nodes(), points.first_atom() / MOST];
-        for (axis, plane) in force.iter_mut().enumerate() {
-            let atoms = plane[first_node..]
-                .par_chunks_mut(MOST)
-                .zip(pairs.force[first_group..].par_iter());
-            atoms
-                .with_min_len(512)
-                .for_each(|(plane, sums)| plane.copy_from_slice(&sums[axis][..plane.len()]));
-        }
-        if MEASURED {
-            let mut planes = measure.planes_mut();
-            planes.iter_mut().for_each(|plane| plane[self.mesh.parts..].fill(0.0));
-            for point in (0..points.len()).filter(|&point| points.is_point(point)) {
-                let element = points.element[point] as usize;
-                for part in 0..PARTS {
-                    planes[part][element] += 0.5 * pairs.held[point / MOST][part][point % MOST];
-                }
-            }
-        }
-    }
 }
 
-fn split_off<'a>(plane: &mut &'a mut [f64], length: usize) -> &'a mut [f64] {
-    let length = length.min(plane.len());
-    let (part, rest) = std::mem::take(plane).split_at_mut(length);
-    *plane = rest;
-    part
+/// Others' parts that have interfaces with mine, ascending.
+fn bordering(domain: &Domain, interfaces: &Interfaces) -> Vec<u32> {
+    let mine = domain.grouped();
+    let is_mine = |part: &u32| mine.contains(&(*part as usize));
+    let across = interfaces
+        .pairs
+        .iter()
+        .filter(|pair| is_mine(&pair[0]) != is_mine(&pair[1]));
+    let mut others: Vec<u32> = across.flatten().copied().filter(|part| !is_mine(part)).collect();
+    others.sort_unstable();
+    others.dedup();
+    others
 }

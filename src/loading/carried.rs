@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use crate::mesh::solid::Solid;
+
 /// Some sites of a specimen. A site stands at the sum of its weights times the places of its nodes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Carried {
@@ -33,6 +35,24 @@ impl Carried {
             }
         }
         found
+    }
+
+    /// The sites of a solid that are wanted, and the elements that have some, ascending.
+    pub fn of_solid(mesh: &Solid, is_wanted: impl Fn([i32; 3]) -> bool) -> (Vec<u32>, Self) {
+        let wanted = |element: usize| -> Vec<[i32; 3]> {
+            let shape = mesh.elements[element];
+            shape.locals().filter(|&local| is_wanted(shape.site(local))).collect()
+        };
+        let all = (0..mesh.elements.len()).map(|element| (element, wanted(element)));
+        let some: Vec<(usize, Vec<[i32; 3]>)> = all.filter(|(_, sites)| !sites.is_empty()).collect();
+        let sites = some.iter().map(|(element, sites)| {
+            let carriers = |&local| mesh.carriers(*element, local);
+            sites.iter().map(carriers)
+        });
+        (
+            some.iter().map(|(element, _)| *element as u32).collect(),
+            Self::new(sites),
+        )
     }
 
     /// Number of sites.

@@ -31,20 +31,14 @@ impl<const D: usize> Together<D> {
             .collect()
     }
 
-    /// Goes back to what [`Self::booked`] gave; what other actions gave changes nothing and is refused.
-    pub fn restore(&mut self, booked: &[f64]) -> Result<(), &'static str> {
-        let count = |action: &dyn Action<D>| action.booked().of_nodes().len();
-        let expected: usize = self.0.iter().map(|(_, action)| count(action.as_ref())).sum();
-        if expected != booked.len() {
-            return Err("its loading acts on another number of nodes");
-        }
+    /// Goes back to what [`Self::booked`] gave.
+    pub fn restore(&mut self, booked: &[f64]) {
         let mut rest = booked;
         for (_, action) in &mut self.0 {
-            let (own, others) = rest.split_at(count(action.as_ref()));
+            let (own, others) = rest.split_at(action.booked().of_nodes().len());
             action.booked_mut().restore(own);
             rest = others;
         }
-        Ok(())
     }
 }
 

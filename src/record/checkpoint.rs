@@ -1,6 +1,7 @@
 //! The file from which a run goes on.
 
 mod slab;
+mod solid;
 
 use std::array;
 use std::path::Path;

@@ -5,9 +5,8 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::SetupError;
-use super::recorder::{Recorder, field_mesh};
-use super::slab::shared_solver;
+use super::recorder::{Recorded, Recorder, RowsOf};
+use super::{SetupError, slab, solid};
 use crate::domain::{MessageCost, Ranks};
 use crate::plan::CaseId;
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
@@ -72,11 +71,18 @@ pub fn run_case(
         threads,
         why: error.to_string(),
     })?;
-    pool.install(|| compute(case, into, ranks, stop, tell, warn))
+    pool.install(|| match &case.body {
+        Body::Slab(slab) => {
+            let set_up = || slab::shared_solver(case, slab, ranks);
+            compute(case, set_up, into, ranks, stop, tell, warn)
+        }
+        Body::Solid(solid) => compute(case, || solid::solver(case, solid), into, ranks, stop, tell, warn),
+    })
 }
 
-fn compute(
+fn compute<B: Recorded<D>, const D: usize>(
     case: &Case,
+    set_up: impl FnOnce() -> Result<Solver<B, D>, SetupError>,
     into: &Path,
     ranks: Ranks,
     stop: &AtomicBool,
@@ -85,10 +91,7 @@ fn compute(
 ) -> Result<Finished, RunCaseError> {
     let id = CaseId::of(case).to_string();
     let start = Instant::now();
-    let Body::Slab(slab) = &case.body else {
-        return Err(SetupError::Solid.into());
-    };
-    let mut solver = shared_solver(case, slab, ranks)?;
+    let mut solver = set_up()?;
     let set_up = start.elapsed().as_secs_f64();
     let mesh = set_up - solver.cost().seconds(Spent::SetUp) - solver.cost().seconds(Spent::Cut);
     resume(&mut solver, into, ranks, &id, warn)?;
@@ -138,8 +141,8 @@ fn phase(name: &str, seconds: f64) -> Phase {
 
 /// Goes back to the folder's checkpoint, and removes what was recorded after it. The first rank decides whether there is
 /// one.
-fn resume(
-    solver: &mut Solver,
+fn resume<B: Recorded<D>, const D: usize>(
+    solver: &mut Solver<B, D>,
     into: &Path,
     ranks: Ranks,
     id: &str,
@@ -147,7 +150,7 @@ fn resume(
 ) -> Result<(), RunCaseError> {
     let path = into.join(CHECKPOINT_FILE);
     let found = if ranks.is_first() {
-        usable_checkpoint(into, &path, id, warn)?
+        usable_checkpoint::<B, D>(into, &path, id, warn)?
     } else {
         None
     };
@@ -162,11 +165,11 @@ fn resume(
     match solver.restore(&checkpoint) {
         Ok(()) => (),
         Err(SolverError::OtherSpecimen(_)) if !ranks.is_first() => return Ok(()),
-        Err(error @ SolverError::OtherSpecimen(_)) => return start_afresh(into, &error, warn),
+        Err(error @ SolverError::OtherSpecimen(_)) => return start_afresh::<B, D>(into, &error, warn),
         Err(error) => return Err(RunCaseError::Physics(error, into.display().to_string())),
     }
     if ranks.is_first() {
-        record::cut_back(into, Some(checkpoint.step))?;
+        record::cut_back::<RowsOf<B, D>>(into, Some(checkpoint.step))?;
         warn(&format!(
             "going on from step {}, {:.3} ps",
             checkpoint.step, checkpoint.time
@@ -176,30 +179,36 @@ fn resume(
 }
 
 /// The folder's checkpoint; where there is none of use, nothing else is left either.
-fn usable_checkpoint(
+fn usable_checkpoint<B: Recorded<D>, const D: usize>(
     into: &Path,
     path: &Path,
     id: &str,
     warn: &mut (dyn FnMut(&str) + Send),
-) -> Result<Option<Checkpoint>, RunCaseError> {
+) -> Result<Option<Checkpoint<B::Kept, D>>, RunCaseError> {
     match record::checkpoint::read(path, id) {
         Ok(checkpoint) => return Ok(Some(checkpoint)),
-        Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
-        Err(error @ (RecordError::Damaged { .. } | RecordError::NotOurs { .. })) => start_afresh(into, &error, warn)?,
+        Err(RecordError::Absent { .. }) => record::cut_back::<RowsOf<B, D>>(into, None)?,
+        Err(error @ (RecordError::Damaged { .. } | RecordError::NotOurs { .. })) => {
+            start_afresh::<B, D>(into, &error, warn)?
+        }
         Err(error) => return Err(error.into()),
     }
     Ok(None)
 }
 
 /// Forgets a run whose checkpoint is of no use.
-fn start_afresh(into: &Path, why: &dyn Error, warn: &mut (dyn FnMut(&str) + Send)) -> Result<(), RunCaseError> {
+fn start_afresh<B: Recorded<D>, const D: usize>(
+    into: &Path,
+    why: &dyn Error,
+    warn: &mut (dyn FnMut(&str) + Send),
+) -> Result<(), RunCaseError> {
     warn(&format!("{why}; starting afresh"));
-    Ok(record::cut_back(into, None)?)
+    Ok(record::cut_back::<RowsOf<B, D>>(into, None)?)
 }
 
 /// Ends a solver: what publishing takes of memory must not come on top of its own.
-fn publish(solver: Solver, into: &Path, id: &str) -> Result<(), RecordError> {
-    let (setting, mesh) = (solver.setting().clone(), field_mesh(&solver));
+fn publish<B: Recorded<D>, const D: usize>(solver: Solver<B, D>, into: &Path, id: &str) -> Result<(), RecordError> {
+    let (setting, mesh) = (solver.body().setting(), solver.body().field_mesh());
     drop(solver);
     record::publish_series(into, id, &setting)?;
     record::publish_fields(into, id, &mesh)

@@ -2,6 +2,7 @@
 
 use std::sync::atomic::AtomicBool;
 
+use super::clock::Clock;
 use super::cost::Cost;
 use super::error::SolverError;
 use super::ledger::Balance;
@@ -10,16 +11,6 @@ use crate::domain::Domain;
 use crate::forces::ForceError;
 use crate::loading::Load;
 use crate::state::State;
-
-/// How far a run has come.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Clock {
-    pub step: u64,
-    /// ps
-    pub time: f64,
-    /// In force, ps.
-    pub time_step: f64,
-}
 
 /// A specimen and what acts on it: all that a step in time asks for.
 pub trait Body<const D: usize> {

@@ -3,8 +3,9 @@
 use std::array;
 
 use super::Solver;
-use super::body::{Clock, Instruments};
+use super::body::Instruments;
 use super::checkpoint::Checkpoint;
+use super::clock::Clock;
 use super::error::SolverError;
 
 impl<B: Instruments<D>, const D: usize> Solver<B, D> {

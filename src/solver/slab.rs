@@ -10,7 +10,6 @@ mod probe;
 mod read;
 mod setting;
 mod sight;
-mod temperature;
 mod traction;
 mod watch;
 
@@ -21,9 +20,11 @@ pub use read::Reading;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::body::{Body, Clock};
+use super::body::Body;
+use super::clock::Clock;
 use super::cost::{Cost, Phase};
 use super::error::SolverError;
+use super::temperature::Thermometer;
 use super::{Settings, Solver, time_step};
 use crate::analysis::initiation;
 use crate::analysis::series::Setting;
@@ -40,12 +41,7 @@ use gauges::Gauges;
 use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
 use sight::Sight;
-use temperature::Thermometer;
 use traction::Traction;
-
-/// Largest force left on a node when the motion begins, over the strength of a bond. Over a specimen of a thousand rows the
-/// longest wave that this leaves is a strain of some 1e-7.
-const RESIDUAL_AT_START: f64 = 1e-8;
 
 /// A slab in motion: its forces, its grips, and what is read of it.
 pub struct Slab {
@@ -121,17 +117,17 @@ impl Solver {
 
     /// What the analysis must know of this specimen.
     pub fn setting(&self) -> &Setting {
-        &self.body.setting
+        self.body.setting()
     }
 
     /// Centres of the bins of the profile along the crack plane, nm from the left edge.
     pub fn profile_x(&self) -> &[f64] {
-        self.body.probes.profile.centres()
+        self.body.profile_x()
     }
 
     /// Where the wave gauges stand, nm from the left edge and from the crack plane.
     pub fn gauge_places(&self) -> &[[f64; 2]] {
-        self.body.probes.gauges.places()
+        self.body.gauge_places()
     }
 }
 
@@ -143,7 +139,7 @@ impl Probes {
         let has_stress = settings.summation != Summation::Nodal;
         Self {
             interior: Interior::new(mesh),
-            thermometer: Thermometer::new(mesh),
+            thermometer: Thermometer::new(free_atoms(mesh)),
             j_integral: has_stress.then(|| JIntegral::new(mesh, material)),
             sight: Sight::new(mesh, loading, &profile, &traction, &gauges),
             profile,
@@ -157,7 +153,29 @@ impl Probes {
     }
 }
 
+/// Nodes and sites of the atoms that are not in the grips.
+fn free_atoms(mesh: &Mesh) -> impl Iterator<Item = (usize, [i32; 2])> {
+    let atoms = mesh.elements.iter().enumerate().skip(mesh.triangles);
+    let free = atoms.filter(|(_, atom)| mesh.grip_of(atom) == 0);
+    free.map(|(element, atom)| (mesh.node(element, 0), [atom.column, atom.row]))
+}
+
 impl Slab {
+    /// What the analysis must know of it.
+    pub fn setting(&self) -> &Setting {
+        &self.setting
+    }
+
+    /// Centres of the bins of the profile along the crack plane, nm from the left edge.
+    pub fn profile_x(&self) -> &[f64] {
+        self.probes.profile.centres()
+    }
+
+    /// Where the wave gauges stand, nm from the left edge and from the crack plane.
+    pub fn gauge_places(&self) -> &[[f64; 2]] {
+        self.probes.gauges.places()
+    }
+
     /// A crack that has set out before the motion begins would be taken for the notch.
     fn refuse_a_crack_that_ran(&self, state: &State) -> Result<(), SolverError> {
         let Some(mut crack) = Crack::new(&self.setting) else {
@@ -258,7 +276,7 @@ impl Body<2> for Slab {
 
     fn relax(&mut self, state: &mut State, stop: &AtomicBool, tell: &mut dyn FnMut(f64)) -> Result<(), SolverError> {
         let target = Target {
-            residual: RESIDUAL_AT_START,
+            residual: super::RESIDUAL_AT_START,
             ..Target::default()
         };
         relaxation::relax_unless(&mut self.forces, state, target, stop, tell).map_err(SolverError::NoRest)?;

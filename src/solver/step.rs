@@ -2,7 +2,8 @@
 
 use std::time::Instant;
 
-use super::body::{Clock, Instruments};
+use super::body::Instruments;
+use super::clock::Clock;
 use super::cost::Phase;
 use super::error::SolverError;
 use super::schedule::Schedule;

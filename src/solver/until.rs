@@ -1,6 +1,6 @@
 //! When a run has reached its end.
 
-use super::body::Clock;
+use super::clock::Clock;
 
 /// A run stops at whichever of these comes first.
 #[derive(Clone, Debug, Default, PartialEq)]

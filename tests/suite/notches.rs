@@ -53,7 +53,7 @@ fn run(crack: &str, element: u32, until: &str) -> (Setting, Series, Findings) {
     let (stop, mut quiet) = (AtomicBool::new(false), |_: &str| ());
     let case = case(crack, element, until);
     run_case(&case, folder.path(), Ranks::alone(), 1, &stop, &mut |_| (), &mut quiet).expect("it runs to its end");
-    let (setting, series) = read_series(&folder.path().join(SERIES_FILE)).expect("it is published");
+    let (setting, series) = read_series::<Setting>(&folder.path().join(SERIES_FILE)).expect("it is published");
     let findings = analyse(&series, &setting);
     (setting, series, findings)
 }

@@ -3,10 +3,13 @@
 //! Each point has a list of its own, by rising number of the partner; its force is summed along it. A list may hold partners
 //! beyond the cutoff, because they add exactly nothing: so it does not matter when it was made.
 
+use std::ops::Range;
+
 use pulp::{Arch, Simd, WithSimd};
 use rayon::prelude::*;
 
 use super::Planes;
+use super::drift::{Drift, Lengths, Moments};
 use super::grid::Grid;
 use super::inside::within;
 use super::measure::{Held, PARTS};
@@ -14,9 +17,6 @@ use super::points::Points;
 use super::vector::Vector;
 use crate::lanes::{Lanes, MOST};
 use crate::potential::{CutPotential, PairShape};
-
-/// How much farther than the cutoff partners are listed, spacings.
-const SKIN: f64 = 0.3;
 
 /// Where the point is that stands for no partner: too far away for anything.
 const FAR_AWAY: f64 = 1e100;
@@ -31,13 +31,18 @@ type Side = [f64; MOST];
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
     pub points: Points,
+    /// Points whose forces this rank sums: some of parts, and some atoms.
+    mine: [Range<usize>; 2],
+    /// Points that it must know the places of: its own and their partners.
+    followed: Vec<Range<usize>>,
     /// For each [`MOST`] points where their partners start; side by side as many partners as there are points.
     starts: Vec<u32>,
     partners: Vec<u32>,
     /// Where the points were when the list was made.
     then: Vec<[f64; 3]>,
-    /// How far a point may go before it is made anew, squared.
-    reach: f64,
+    /// Even motion of all points since then.
+    drift: Drift,
+    lengths: Lengths,
     /// Where they are; after them the one that stands for nobody.
     places: Vec<[f64; 4]>,
     /// Forces on the points and what pairs hold of them.
@@ -46,97 +51,143 @@ pub struct Pairs {
 }
 
 impl Pairs {
-    /// Lists the partners of points; `are_joined` tells parts that an intact interface joins.
+    /// Lists the partners of the points of these elements, all in groups and all atoms; `are_joined` tells parts that an intact
+    /// interface joins.
     pub fn search(
         points: Points,
+        elements: [Range<usize>; 2],
         are_joined: impl Fn(u32, u32) -> bool + Sync,
         position: &Planes,
-        [cutoff, spacing]: [f64; 2],
+        lengths: Lengths,
     ) -> Self {
         let then: Vec<[f64; 3]> = (0..points.len())
             .into_par_iter()
             .map(|point| points.place(point, position))
             .collect();
-        let radius = cutoff + SKIN * spacing;
-        let grid = Grid::new(&then, |point| points.is_point(point), radius);
+        let grid = Grid::new(&then, |point| points.is_point(point), lengths.radius);
+        let [parts, atoms] = elements;
+        let mine = [
+            points.of_elements(parts, 0..points.of_parts()),
+            points.of_elements(atoms, points.first_atom()..points.len()),
+        ];
         let nobody = points.len() as u32;
-        let partners_of = |point: usize| {
-            let own = points.element[point];
-            let mut partners = Vec::new();
-            if !points.is_point(point) {
-                return partners;
-            }
-            grid.near(then[point], |other| {
-                let [here, there] = [then[point], then[other as usize]];
+        let find = |point: usize, partners: &mut Vec<u32>| {
+            let (own, here) = (points.element[point], then[point]);
+            let is_of_part = points.is_of_part(point);
+            partners.clear();
+            grid.near(here, |other| {
+                let there = then[other as usize];
                 let way = [there[0] - here[0], there[1] - here[1], there[2] - here[2]];
                 let squared = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-                let theirs = points.element[other as usize];
-                if squared < radius * radius && own != theirs {
-                    let are_parts = points.is_of_part(point) && points.is_of_part(other as usize);
-                    if !are_parts || !are_joined(own, theirs) {
+                if squared < lengths.radius * lengths.radius {
+                    let theirs = points.element[other as usize];
+                    let are_parts = is_of_part && points.is_of_part(other as usize);
+                    if own != theirs && (!are_parts || !are_joined(own, theirs)) {
                         partners.push(other);
                     }
                 }
             });
             partners.sort_unstable();
-            partners
         };
         let groups = (0..points.len()).into_par_iter().step_by(MOST);
-        let side_by_side = |first: usize| {
-            let of_points: Vec<Vec<u32>> = (first..points.len().min(first + MOST)).map(partners_of).collect();
-            let longest = of_points.iter().map(Vec::len).max().unwrap_or(0);
-            let mut list = vec![nobody; longest * MOST];
-            for (lane, partners) in of_points.iter().enumerate() {
-                let slots = partners.iter().enumerate();
-                slots.for_each(|(slot, &partner)| list[slot * MOST + lane] = partner);
+        let side_by_side = |partners: &mut Vec<u32>, first: usize| {
+            let mut list = Vec::new();
+            for lane in 0..MOST {
+                let point = first + lane;
+                if points.is_point(point) && mine.iter().any(|mine| mine.contains(&point)) {
+                    find(point, partners);
+                    if list.len() < partners.len() * MOST {
+                        list.resize(partners.len() * MOST, nobody);
+                    }
+                    let slots = partners.iter().enumerate();
+                    slots.for_each(|(slot, &partner)| list[slot * MOST + lane] = partner);
+                }
             }
             list
         };
-        let lists: Vec<Vec<u32>> = groups.map(side_by_side).collect();
+        let lists: Vec<Vec<u32>> = groups.map_init(Vec::new, side_by_side).collect();
         let mut starts = vec![0];
         let mut total = 0;
         starts.extend(lists.iter().map(|list| {
             total += list.len() as u32;
             total
         }));
-        let half_skin = 0.5 * SKIN * spacing;
+        let partners = lists.concat();
         Self {
+            followed: followed(&mine, &partners, points.len()),
             starts,
-            partners: lists.concat(),
-            reach: half_skin * half_skin,
+            partners,
+            drift: Drift::default(),
+            lengths,
             places: vec![[FAR_AWAY; 4]; points.len().next_multiple_of(MOST) + 1],
             force: vec![[[0.0; MOST]; 3]; lists.len()],
             held: Vec::new(),
+            mine,
             then,
             points,
         }
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.points.is_empty()
+    /// Points whose forces this rank sums: some of parts, and some atoms.
+    pub fn mine(&self) -> &[Range<usize>; 2] {
+        &self.mine
     }
 
-    /// Puts the points where they are now; whether the list is still good.
+    /// The elements of others that the forces of this rank's points depend on, in any order, perhaps more than once.
+    pub fn needed(&self) -> impl Iterator<Item = u32> {
+        self.followed
+            .iter()
+            .cloned()
+            .flatten()
+            .map(|point| self.points.element[point])
+    }
+
+    /// Puts the points where they are now; whether the list is still good as far as this rank sees.
     pub fn follow(&mut self, position: &Planes) -> bool {
-        let Self {
-            points,
-            then,
-            reach,
-            places,
-            ..
-        } = self;
-        let here = places.par_iter_mut().zip(&*then).enumerate().with_min_len(MOST * CHUNK);
-        let strays = here.map(|(point, (place, then))| {
-            if !points.is_point(point) {
-                return false;
-            }
-            let [x, y, z] = points.place(point, position);
-            *place = [x, y, z, 0.0];
-            let way = [x - then[0], y - then[1], z - then[2]];
+        for range in &self.followed {
+            let places = self.places[range.clone()]
+                .par_iter_mut()
+                .enumerate()
+                .with_min_len(MOST * CHUNK);
+            places.for_each(|(number, place)| {
+                let [x, y, z] = self.points.place(range.start + number, position);
+                *place = [x, y, z, 0.0];
+            });
+        }
+        self.is_current()
+    }
+
+    /// Whether no point of this rank has strayed from the even motion of all of them so far that a pair may have come within
+    /// the cutoff that is not listed.
+    pub fn is_current(&self) -> bool {
+        let reach = self.drift.reach(self.lengths);
+        let strays = |point: usize| {
+            let [x, y, z, _] = self.places[point];
+            let expected = self.drift.place(self.then[point]);
+            let way = [x - expected[0], y - expected[1], z - expected[2]];
+            // Written so that what is no number strays.
             let squared = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-            squared > *reach
-        });
-        !strays.reduce(|| false, |a, b| a || b)
+            squared.is_nan() || squared > reach * reach
+        };
+        let points = self.mine.iter().cloned();
+        points
+            .into_iter()
+            .all(|mine| !mine.into_par_iter().with_min_len(MOST * CHUNK).any(strays))
+    }
+
+    /// Sums from which all ranks together find the even motion of their points.
+    pub fn motion(&self) -> Moments {
+        let mut moments = Moments::default();
+        for point in self.mine.iter().cloned().flatten() {
+            let [x, y, z, _] = self.places[point];
+            moments.add(self.then[point], [x, y, z]);
+        }
+        moments
+    }
+
+    /// Takes even motion for what the list allows for.
+    pub fn drift_with(&mut self, drift: Drift) {
+        self.drift = drift;
     }
 
     /// Sums the forces on the points; in steps that are `MEASURED` also what their elements hold of the pairs.
@@ -168,13 +219,13 @@ impl Pairs {
         });
     }
 
-    /// Gives the vector between the partners of every pair of points once.
+    /// Gives the vector from each point of this rank to each partner.
     pub fn for_each(&self, mut give: impl FnMut([u32; 2], [f64; 3])) {
         for (group, bounds) in self.starts.windows(2).enumerate() {
             let list = &self.partners[bounds[0] as usize..bounds[1] as usize];
             for (place, &partner) in list.iter().enumerate() {
                 let point = group * MOST + place % MOST;
-                if (partner as usize) < self.points.len() && point < partner as usize {
+                if (partner as usize) < self.points.len() {
                     let [here, there] = [self.places[point], self.places[partner as usize]];
                     give(
                         [point as u32, partner],
@@ -184,6 +235,24 @@ impl Pairs {
             }
         }
     }
+}
+
+/// Own points and their partners, as ranges.
+fn followed(mine: &[Range<usize>; 2], partners: &[u32], points: usize) -> Vec<Range<usize>> {
+    let mut is_followed = vec![false; points];
+    mine.iter().for_each(|mine| is_followed[mine.clone()].fill(true));
+    let partners = partners.iter().map(|&partner| partner as usize);
+    partners
+        .filter(|&partner| partner < points)
+        .for_each(|partner| is_followed[partner] = true);
+    let mut ranges: Vec<Range<usize>> = Vec::new();
+    for point in (0..points).filter(|&point| is_followed[point]) {
+        match ranges.last_mut() {
+            Some(last) if last.end == point => last.end += 1,
+            _ => ranges.push(point..point + 1),
+        }
+    }
+    ranges
 }
 
 /// The sums of some groups of points.

@@ -2,6 +2,7 @@
 //! and near such sites.
 
 use std::collections::HashSet;
+use std::ops::Range;
 
 use super::Planes;
 use crate::lanes::MOST;
@@ -88,10 +89,6 @@ impl Points {
         self.element.len()
     }
 
-    pub fn is_empty(&self) -> bool {
-        self.element.is_empty()
-    }
-
     /// Whether there is a point of this number: a few between those of parts and the atoms are left out.
     #[inline(always)]
     pub fn is_point(&self, number: usize) -> bool {
@@ -111,6 +108,13 @@ impl Points {
     /// The number of the first atom, a multiple of [`MOST`].
     pub fn first_atom(&self) -> usize {
         self.first_atom
+    }
+
+    /// The points of consecutive elements among those of a range.
+    pub fn of_elements(&self, elements: Range<usize>, points: Range<usize>) -> Range<usize> {
+        let of = &self.element[points.clone()];
+        let first = |element: usize| points.start + of.partition_point(|&other| (other as usize) < element);
+        first(elements.start)..first(elements.end)
     }
 
     /// Nodes that carry a point of a part, and their weights.

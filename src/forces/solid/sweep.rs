@@ -36,21 +36,18 @@ struct TouchingRun {
     is_mine: [bool; 2],
 }
 
-/// Cuts groups into so many tiles of about equally many parts.
-pub fn tiles(mesh: &Solid, interfaces: &Interfaces, count: usize) -> Vec<Tile> {
+/// Cuts the groups of some parts into so many tiles of about equally many parts.
+pub fn tiles(mesh: &Solid, interfaces: &Interfaces, parts: Range<usize>, count: usize) -> Vec<Tile> {
     let groups = mesh.groups();
     let mut tiles = Vec::new();
-    let mut from = 0;
-    for number in 0..count {
-        let end = mesh.parts * (number + 1) / count;
-        let mut to = from;
-        while to < groups.len() && groups[to].elements.end <= end {
-            to += 1;
-        }
+    let mut from = groups.partition_point(|group| group.elements.start < parts.start);
+    for number in 1..=count {
+        let end = parts.start + parts.len() * number / count;
+        let to = groups.partition_point(|group| group.elements.end <= end);
         if to > from {
             tiles.push(tile(mesh, interfaces, from..to));
+            from = to;
         }
-        from = to;
     }
     tiles
 }

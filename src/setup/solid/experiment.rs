@@ -6,9 +6,9 @@ use crate::material::Material;
 use crate::mesh::solid::Solid as Mesh;
 use crate::setup::SetupError;
 use crate::solver::solid::{Experiment, Extension, Gauge};
-use crate::study::case::Solid;
 use crate::study::case::Ramp as Start;
-use crate::study::case::solid::{Axis, Depth, Face, Loading, PulseShape, Pull, Side};
+use crate::study::case::Solid;
+use crate::study::case::solid::{Axis, Depth, Face, Loading, Pull, PulseShape, Side};
 
 /// Names of the actions, which columns of the series begin with: what the study calls its loading, and the rest.
 pub const LOADING: &str = "loading";
@@ -109,9 +109,12 @@ impl Setup<'_> {
                 let velocity = self.laid.direction(face, direction).map(|part| part * speed);
                 loading(Box::new(Hold::moving(nodes, velocity, ramp == Start::InitialVelocity)))
             }
-            Loading::Traction { face, pull, rise_time } => {
-                loading(Box::new(self.push(face, |_| true, pull, Course::Rise { within: rise_time })))
-            }
+            Loading::Traction { face, pull, rise_time } => loading(Box::new(self.push(
+                face,
+                |_| true,
+                pull,
+                Course::Rise { within: rise_time },
+            ))),
             Loading::Pulse {
                 face,
                 pull,
@@ -289,7 +292,10 @@ mod tests {
         let material = material(solid).expect("it binds");
         let laid = lay_out(solid, material.spacing).expect("it can be laid out");
         let mesh = Mesh::new(&laid.plan);
-        (experiment(solid, &laid, &mesh, &material).expect("it can be loaded"), laid)
+        (
+            experiment(solid, &laid, &mesh, &material).expect("it can be loaded"),
+            laid,
+        )
     }
 
     #[test]
@@ -310,7 +316,11 @@ mod tests {
     #[test]
     fn a_row_of_blocks_is_held_and_the_opposite_one_moves() {
         let (experiment, laid) = made("held: {faces: [a2-low]}\n  loading: {velocity: {face: a2-high, speed: 20 m/s}}");
-        let held: Vec<usize> = experiment.actions.iter().map(|(_, action)| action.held().len()).collect();
+        let held: Vec<usize> = experiment
+            .actions
+            .iter()
+            .map(|(_, action)| action.held().len())
+            .collect();
         // Two blocks of 14 nodes each.
         assert_eq!(held, [28, 28]);
         let free = laid.thickness(Axis::Second) / 3.0;

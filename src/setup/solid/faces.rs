@@ -48,7 +48,9 @@ impl Laid {
             Side::High => self.thickness(face.axis) - height,
         };
         let frame = &self.plan.sites.frame;
-        let steps = fcc::NEAREST.into_iter().flat_map(|vector| [vector, vector.map(|part| -part)]);
+        let steps = fcc::NEAREST
+            .into_iter()
+            .flat_map(|vector| [vector, vector.map(|part| -part)]);
         let rises = steps.map(|vector| {
             let step = frame.place(vector);
             (0..3).map(|axis| step[axis] * outward[axis]).sum::<f64>()
@@ -85,9 +87,14 @@ impl Laid {
             let element = mesh.elements[*element];
             // An element is convex: it is within where its nodes are.
             let corners = element.corners().into_iter();
-            corners.map(|local| element.site(local)).all(|site| self.is_within(site, face, depth))
+            corners
+                .map(|local| element.site(local))
+                .all(|site| self.is_within(site, face, depth))
         };
         let elements = (0..mesh.elements.len()).filter(is_whole);
-        elements.flat_map(|element| mesh.nodes_of(element)).map(|node| node as u32).collect()
+        elements
+            .flat_map(|element| mesh.nodes_of(element))
+            .map(|node| node as u32)
+            .collect()
     }
 }

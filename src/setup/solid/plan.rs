@@ -1,9 +1,9 @@
 //! Sites, elements, regions and faces of a solid, from what a case asks for.
 
+use super::experiment::opposite;
 use crate::mesh::solid::Plan;
 use crate::mesh::solid::region::{Region, Shape as RegionShape};
 use crate::mesh::solid::sites::{Frame, Outline, Range3, Sites};
-use super::experiment::opposite;
 use crate::setup::SetupError;
 use crate::study::case::Solid;
 use crate::study::case::solid::{self as case, Axis, Depth, Face, Loading, Notch, Pull, Shape, Side};
@@ -205,7 +205,10 @@ impl Laid {
     pub fn area_of_a_site(&self, axis: Axis, sites: usize) -> f64 {
         match &self.plan.sites.outline {
             Outline::Rhombohedron(extent) => {
-                let cells: f64 = (0..3).filter(|&other| other != axis.index()).map(|other| f64::from(extent[other])).product();
+                let cells: f64 = (0..3)
+                    .filter(|&other| other != axis.index())
+                    .map(|other| f64::from(extent[other]))
+                    .product();
                 self.area(axis) / cells
             }
             Outline::Box(_) => self.area(axis) / sites.max(1) as f64,

@@ -6,7 +6,8 @@ use super::{Slab, probe};
 use crate::analysis::series::{BondEvent, Probe, RINGS};
 use crate::forces::Measure;
 use crate::mesh::Mesh;
-use crate::solver::body::{Clock, Instruments, Totals};
+use crate::solver::body::{Instruments, Totals};
+use crate::solver::clock::Clock;
 use crate::solver::until::{Ending, Until};
 use crate::state::State;
 

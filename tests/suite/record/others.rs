@@ -56,7 +56,7 @@ fn vtk_reads_every_time_step_of_the_fields() {
     publish_fields(dir.path(), "1f", &mesh).unwrap();
     let path = dir.path().join(FIELDS_FILE);
     let seen = ask_python("read_fields.py", &path);
-    let (_, frames) = read_fields(&path).unwrap();
+    let (_, frames) = read_fields::<[f64; 2]>(&path).unwrap();
 
     assert_eq!(seen["attributes"], attributes());
     assert_eq!(seen["times"], json!(frames.times()));
