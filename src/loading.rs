@@ -55,8 +55,12 @@ pub trait Load<const D: usize> {
 
 /// A load that may act together with others on a specimen.
 pub trait Action<const D: usize>: Load<D> + Send + Sync {
-    /// The force with which it acts on the specimen, eV/nm, in a state whose forces have just been computed.
-    fn pull(&self, state: &State<D>) -> [f64; D];
+    /// The force with which it acts on the specimen, eV/nm, in a state whose forces have just been computed. All ranks must ask
+    /// for it together.
+    fn pull(&self, state: &State<D>, ranks: Ranks) -> [f64; D];
+
+    /// Keeps to the nodes that a rank moves, those in these ranges.
+    fn keep_to(&mut self, nodes: &[Range<usize>]);
 
     fn booked(&self) -> &Work;
 

@@ -153,11 +153,6 @@ impl Forces {
         self.open(open);
     }
 
-    /// The two elements of an interface.
-    pub fn beside(&self, interface: u32) -> [u32; 2] {
-        self.interfaces.pairs[interface as usize]
-    }
-
     pub fn interface_count(&self) -> usize {
         self.intact.len()
     }

@@ -1,5 +1,7 @@
 //! A rigid ball that runs into a specimen.
 
+use std::ops::Range;
+
 use rayon::prelude::*;
 
 use super::carried::Carried;
@@ -23,7 +25,9 @@ pub struct Ball<const D: usize> {
     centre: [f64; D],
     /// nm/ps
     velocity: [f64; D],
-    /// What it pushes each of its nodes with now, eV/nm.
+    /// Elements of the sites whose nodes this rank moves.
+    mine: Vec<u32>,
+    /// What it pushes each of its nodes with now, eV/nm; zero for those that other ranks move.
     forces: Vec<[f64; D]>,
     work: Work,
 }
@@ -36,6 +40,7 @@ impl<const D: usize> Ball<D> {
         Self {
             forces: vec![[0.0; D]; nodes.len()],
             work: Work::none(nodes.len()),
+            mine: (0..sites.elements().len() as u32).collect(),
             sites,
             nodes,
             radius,
@@ -91,9 +96,9 @@ impl<const D: usize> Load<D> for Ball<D> {
     fn force(&mut self, state: &mut State<D>, time: f64) {
         let centre = self.centre(time);
         let position = &state.position;
-        let elements = (0..self.sites.elements().len()).into_par_iter().with_min_len(64);
+        let elements = self.mine.par_iter().with_min_len(64);
         let touched: Vec<_> = elements
-            .flat_map_iter(|element| self.touched(element, centre, position))
+            .flat_map_iter(|&element| self.touched(element as usize, centre, position))
             .collect();
         self.forces.fill([0.0; D]);
         for (site, push) in touched {
@@ -102,14 +107,17 @@ impl<const D: usize> Load<D> for Ball<D> {
                 (0..D).for_each(|axis| self.forces[place][axis] += weight * push[axis]);
             }
         }
-        for (&node, force) in self.nodes.iter().zip(&self.forces) {
-            (0..D).for_each(|axis| state.force[axis][node as usize] += force[axis]);
+        for &place in self.work.mine() {
+            let [node, place] = [self.nodes[place as usize], place].map(|number| number as usize);
+            (0..D).for_each(|axis| state.force[axis][node] += self.forces[place][axis]);
         }
     }
 
     fn book(&mut self, state: &State<D>, time: f64) {
-        for (place, &node) in self.nodes.iter().enumerate() {
-            let velocity = state.velocity.each_ref().map(|plane| plane[node as usize]);
+        for number in 0..self.work.mine().len() {
+            let place = self.work.mine()[number] as usize;
+            let node = self.nodes[place] as usize;
+            let velocity = state.velocity.each_ref().map(|plane| plane[node]);
             self.work.book(place, self.forces[place], velocity, time);
         }
     }
@@ -125,9 +133,19 @@ impl<const D: usize> Load<D> for Ball<D> {
 }
 
 impl<const D: usize> Action<D> for Ball<D> {
-    fn pull(&self, _: &State<D>) -> [f64; D] {
-        let sum = |axis: usize| self.forces.iter().map(|force| force[axis]).sum();
-        std::array::from_fn(sum)
+    fn pull(&self, _: &State<D>, ranks: Ranks) -> [f64; D] {
+        self.work.sum(ranks, |place| self.forces[place])
+    }
+
+    /// The nodes of an element belong to one rank.
+    fn keep_to(&mut self, nodes: &[Range<usize>]) {
+        self.work.keep_to(self.nodes.iter().copied(), nodes);
+        let elements = (0..).zip(self.sites.elements());
+        let is_mine = |(_, sites): &(u32, &Range<usize>)| {
+            let (first, _) = self.sites.carriers(sites.start..sites.end)[0];
+            nodes.iter().any(|range| range.contains(&(first as usize)))
+        };
+        self.mine = elements.filter(is_mine).map(|(element, _)| element).collect();
     }
 
     fn booked(&self) -> &Work {
@@ -185,7 +203,7 @@ mod tests {
                 assert!((force[axis][node] + slope).abs() < DIFFERENCE, "{axis} {node}: {slope}");
             }
             let sum: f64 = force[axis].iter().sum();
-            assert!((ball.pull(&state)[axis] - sum).abs() < 1e-14);
+            assert!((ball.pull(&state, Ranks::alone())[axis] - sum).abs() < 1e-14);
         }
     }
 
@@ -197,6 +215,20 @@ mod tests {
         ball.book(&state, 0.25);
         let expected = 0.25 * (state.force[2][0] - 3.0 * state.force[2][2]);
         assert!((ball.work(Ranks::alone()) - expected).abs() < 1e-15);
+    }
+
+    #[test]
+    fn on_a_rank_it_pushes_the_nodes_that_the_rank_moves_with_the_same_bits() {
+        let (mut ball, mut state) = ball();
+        ball.force(&mut state, 0.5);
+        let (mut part, mut own) = super::tests::ball();
+        part.keep_to(&[0..2, 3..4]);
+        part.force(&mut own, 0.5);
+        for axis in 0..3 {
+            assert_eq!(own.force[axis][..2], state.force[axis][..2]);
+            assert_eq!(own.force[axis][2], 0.0);
+        }
+        assert!(state.force[2][2] > 0.0);
     }
 
     #[test]

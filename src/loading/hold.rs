@@ -1,5 +1,7 @@
 //! Nodes that move as prescribed: held at rest, or with a constant velocity.
 
+use std::ops::Range;
+
 use super::work::Work;
 use super::{Action, Load, pace};
 use crate::domain::Ranks;
@@ -35,6 +37,12 @@ impl<const D: usize> Hold<D> {
             is_followed,
         }
     }
+
+    /// The force that holds a node, eV/nm.
+    #[inline(always)]
+    fn on_node(&self, place: usize, state: &State<D>) -> [f64; D] {
+        state.force.each_ref().map(|plane| -plane[self.nodes[place] as usize])
+    }
 }
 
 impl<const D: usize> Load<D> for Hold<D> {
@@ -56,9 +64,9 @@ impl<const D: usize> Load<D> for Hold<D> {
         if self.velocity == [0.0; D] {
             return;
         }
-        for (place, &node) in self.nodes.iter().enumerate() {
-            let force = state.force.each_ref().map(|plane| -plane[node as usize]);
-            self.work.book(place, force, self.velocity, time);
+        for number in 0..self.work.mine().len() {
+            let place = self.work.mine()[number] as usize;
+            self.work.book(place, self.on_node(place, state), self.velocity, time);
         }
     }
 
@@ -81,9 +89,12 @@ impl<const D: usize> Load<D> for Hold<D> {
 }
 
 impl<const D: usize> Action<D> for Hold<D> {
-    fn pull(&self, state: &State<D>) -> [f64; D] {
-        let of_axis = |plane: &Vec<f64>| self.nodes.iter().map(|&node| -plane[node as usize]).sum();
-        state.force.each_ref().map(of_axis)
+    fn pull(&self, state: &State<D>, ranks: Ranks) -> [f64; D] {
+        self.work.sum(ranks, |place| self.on_node(place, state))
+    }
+
+    fn keep_to(&mut self, nodes: &[Range<usize>]) {
+        self.work.keep_to(self.nodes.iter().copied(), nodes);
     }
 
     fn booked(&self) -> &Work {
@@ -109,7 +120,7 @@ mod tests {
         assert!(state.mobility.iter().all(|plane| plane[..] == [1.0, 0.0, 1.0, 0.0]));
         // The specimen pulls down with 2 and 4: what holds it pulls up.
         state.force[1] = vec![9.0, -2.0, 9.0, -4.0];
-        assert_eq!(hold.pull(&state), [0.0, 6.0, 0.0]);
+        assert_eq!(hold.pull(&state, Ranks::alone()), [0.0, 6.0, 0.0]);
         hold.book(&state, 0.5);
         assert_eq!(hold.work(Ranks::alone()), 6.0 * 0.5 * 0.5);
         let mut at_rest = Hold::at_rest(vec![0]);

@@ -1,6 +1,7 @@
 //! Forces on a face that are given in time: tractions and pulses.
 
 use std::f64::consts::PI;
+use std::ops::Range;
 
 use super::work::Work;
 use super::{Action, Load};
@@ -74,7 +75,8 @@ impl<const D: usize> Load<D> for Push<D> {
         for (plane, component) in state.force.iter_mut().zip(self.force) {
             let of_site = self.factor * component;
             if of_site != 0.0 {
-                for &(node, share) in &self.shares {
+                for &place in self.work.mine() {
+                    let (node, share) = self.shares[place as usize];
                     plane[node as usize] += of_site * share;
                 }
             }
@@ -82,7 +84,9 @@ impl<const D: usize> Load<D> for Push<D> {
     }
 
     fn book(&mut self, state: &State<D>, time: f64) {
-        for (place, &(node, share)) in self.shares.iter().enumerate() {
+        for number in 0..self.work.mine().len() {
+            let place = self.work.mine()[number] as usize;
+            let (node, share) = self.shares[place];
             let force = self.force.map(|component| self.factor * component * share);
             let velocity = state.velocity.each_ref().map(|plane| plane[node as usize]);
             self.work.book(place, force, velocity, time);
@@ -99,9 +103,13 @@ impl<const D: usize> Load<D> for Push<D> {
 }
 
 impl<const D: usize> Action<D> for Push<D> {
-    fn pull(&self, _: &State<D>) -> [f64; D] {
+    fn pull(&self, _: &State<D>, _: Ranks) -> [f64; D] {
         let sites: f64 = self.shares.iter().map(|(_, share)| share).sum();
         self.force.map(|component| self.factor * component * sites)
+    }
+
+    fn keep_to(&mut self, nodes: &[Range<usize>]) {
+        self.work.keep_to(self.shares.iter().map(|&(node, _)| node), nodes);
     }
 
     fn booked(&self) -> &Work {
@@ -155,7 +163,7 @@ mod tests {
         let mut push = Push::new(vec![(0, 1.5), (2, 2.5)], [0.0, -2.0], Course::Rise { within: 4.0 });
         push.force(&mut state, 2.0);
         assert_eq!(state.force, [vec![0.0; 3], vec![-1.5, 0.0, -2.5]]);
-        assert_eq!(push.pull(&state), [0.0, -4.0]);
+        assert_eq!(push.pull(&state, Ranks::alone()), [0.0, -4.0]);
         state.velocity[1] = vec![-1.0, 7.0, 2.0];
         push.book(&state, 0.5);
         assert_eq!(push.work(Ranks::alone()), 0.5 * (1.5 - 5.0));

@@ -1,5 +1,7 @@
 //! Several actions on one specimen.
 
+use std::ops::Range;
+
 use super::{Action, Load};
 use crate::domain::Ranks;
 use crate::state::State;
@@ -12,30 +14,38 @@ impl<const D: usize> Together<D> {
         Self(actions)
     }
 
-    /// Name and force on the specimen, eV/nm, of each.
-    pub fn pulls(&self, state: &State<D>) -> impl Iterator<Item = (&str, [f64; D])> {
-        let pulls = self.0.iter();
-        pulls.map(|(name, action)| (name.as_str(), action.pull(state)))
+    /// Force of each on the specimen, eV/nm. All ranks must ask for it together.
+    pub fn pulls(&self, state: &State<D>, ranks: Ranks) -> Vec<[f64; D]> {
+        self.0.iter().map(|(_, action)| action.pull(state, ranks)).collect()
+    }
+
+    /// Keeps to the nodes that a rank moves, those in these ranges.
+    pub fn keep_to(&mut self, nodes: &[Range<usize>]) {
+        self.0.iter_mut().for_each(|(_, action)| action.keep_to(nodes));
     }
 
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|(name, _)| name.as_str())
     }
 
-    /// What each has booked on each of its nodes, one after the other, eV.
-    pub fn booked(&self) -> Vec<f64> {
+    /// What each has booked on each of its nodes, one after the other, eV. All ranks must ask for it together.
+    pub fn booked(&self, ranks: Ranks) -> Vec<f64> {
         let actions = self.0.iter();
         actions
-            .flat_map(|(_, action)| action.booked().of_nodes())
-            .copied()
+            .flat_map(|(_, action)| action.booked().of_nodes(ranks))
             .collect()
+    }
+
+    /// On how many nodes they act, one after the other.
+    pub fn node_count(&self) -> usize {
+        self.0.iter().map(|(_, action)| action.booked().len()).sum()
     }
 
     /// Goes back to what [`Self::booked`] gave.
     pub fn restore(&mut self, booked: &[f64]) {
         let mut rest = booked;
         for (_, action) in &mut self.0 {
-            let (own, others) = rest.split_at(action.booked().of_nodes().len());
+            let (own, others) = rest.split_at(action.booked().len());
             action.booked_mut().restore(own);
             rest = others;
         }

@@ -189,7 +189,7 @@ fn usable_checkpoint<B: Recorded<D>, const D: usize>(
         Ok(checkpoint) => return Ok(Some(checkpoint)),
         Err(RecordError::Absent { .. }) => record::cut_back::<RowsOf<B, D>>(into, None)?,
         Err(error @ (RecordError::Damaged { .. } | RecordError::NotOurs { .. })) => {
-            start_afresh::<B, D>(into, &error, warn)?
+            start_afresh::<B, D>(into, &error, warn)?;
         }
         Err(error) => return Err(error.into()),
     }

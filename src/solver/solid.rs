@@ -21,7 +21,6 @@ use crate::analysis::columns::{Columns, SolidSetting};
 use crate::domain::{Domain, Ranks};
 use crate::forces::ForceError;
 use crate::forces::solid::{self, Forces, Measure};
-use crate::lanes;
 use crate::lattice::fcc;
 use crate::loading::{Action, Load, Ramp, Together, mean};
 use crate::material::Material;
@@ -54,9 +53,9 @@ pub struct Extension {
 }
 
 impl Extension {
-    /// Nominal strain of a state.
-    fn strain(&self, position: &[Vec<f64>; 3]) -> f64 {
-        let [low, high] = self.ends.each_ref().map(|end| mean(end, position));
+    /// Nominal strain of a state, more or less that of the reference state. All ranks must ask for it together.
+    fn strain(&self, domain: &Domain, position: &[Vec<f64>; 3]) -> f64 {
+        let [low, high] = self.ends.each_ref().map(|end| mean(domain, end, position));
         let along: f64 = (0..3).map(|axis| self.along[axis] * (high[axis] - low[axis])).sum();
         along / self.length
     }
@@ -65,7 +64,6 @@ impl Extension {
 /// A solid in motion: its forces, its loading, and what is read of it.
 pub struct Solid {
     forces: Forces,
-    domain: Domain,
     loading: Together<3>,
     ramp: Option<Ramp<3>>,
     extension: Extension,
@@ -81,8 +79,9 @@ pub struct Solid {
 }
 
 impl Solver<Solid, 3> {
-    /// A solid at the start of its loading.
+    /// The part of this rank in a solid at the start of its loading, which all ranks compute together.
     pub fn of_solid(
+        ranks: Ranks,
         mesh: Mesh,
         material: Material,
         experiment: Experiment,
@@ -110,16 +109,16 @@ impl Solver<Solid, 3> {
             represented_atoms: mesh.site_count(),
         };
         let thermometer = Thermometer::new(atoms);
-        let domain = Domain::new(Ranks::alone(), &mesh, |_| 1.0);
-        let forces = Forces::new(mesh, material);
+        let forces = Forces::shared(ranks, mesh, material);
+        let mut loading = Together::new(actions);
+        loading.keep_to(&forces.domain().nodes());
         let solid = Solid {
             thermometer,
             setting,
-            domain,
             broken: Broken::new(&forces),
-            strain_at_rest: extension.strain(&state.position),
+            strain_at_rest: extension.strain(forces.domain(), &state.position),
             last_strain: 0.0,
-            loading: Together::new(actions),
+            loading,
             ramp,
             extension,
             measure: Measure::default(),
@@ -146,6 +145,11 @@ impl Solid {
     pub fn setting(&self) -> &SolidSetting {
         &self.setting
     }
+
+    /// Distance of the ends over that of the reference state. All ranks must ask for it together.
+    fn measured_strain(&self, state: &State<3>) -> f64 {
+        self.extension.strain(self.forces.domain(), &state.position)
+    }
 }
 
 /// Reference volume of a site, nm^3.
@@ -157,11 +161,11 @@ impl Body<3> for Solid {
     type Load = Together<3>;
 
     fn domain(&self) -> &Domain {
-        &self.domain
+        self.forces.domain()
     }
 
     fn domain_mut(&mut self) -> &mut Domain {
-        &mut self.domain
+        self.forces.domain_mut()
     }
 
     fn load(&self) -> &Together<3> {
@@ -195,15 +199,12 @@ impl Body<3> for Solid {
         };
         computed.map_err(|solid::ForceError::FlewAway { element }| ForceError::FlewAway { element })?;
         self.loading.force(state, time);
-        self.domain.agree();
         Ok(())
     }
 
     fn stored(&self) -> [f64; 2] {
-        let elements = self.forces.mesh().elements.len();
-        lanes::sums(elements, |element| {
-            [self.measure.energy(element), self.measure.pairs(element)]
-        })
+        let domain = self.forces.domain();
+        domain.sum_elements(|element| [self.measure.energy(element), self.measure.pairs(element)])
     }
 
     fn stability_limit(&self, state: &State<3>) -> f64 {
@@ -243,17 +244,18 @@ impl Body<3> for Solid {
     }
 
     fn rebook(&self, cost: &mut Cost) {
-        cost.rebook(Phase::Forces, Phase::Neighbours, (self.forces.searches(), 0.0));
+        cost.rebook(Phase::Forces, Phase::Neighbours, self.forces.search_cost());
+        cost.rebook(Phase::Forces, Phase::Exchange, self.forces.exchange_cost());
     }
 }
 
 impl Elastic<3> for Solid {
     fn domain(&self) -> &Domain {
-        &self.domain
+        self.forces.domain()
     }
 
     fn domain_mut(&mut self) -> &mut Domain {
-        &mut self.domain
+        self.forces.domain_mut()
     }
 
     fn material(&self) -> &Material {

@@ -5,6 +5,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 use cgaft::analysis::columns::Columns;
+use cgaft::domain::Ranks;
 use cgaft::forces::Summation;
 use cgaft::loading::{Action, Ball, Carried, Course, Hold, Push, Ramp};
 use cgaft::material::Material;
@@ -163,7 +164,7 @@ fn hit(mesh: &Mesh) -> Experiment {
 }
 
 fn solver(mesh: &Mesh, experiment: Experiment, settings: Settings) -> Solver<Solid, 3> {
-    Solver::of_solid(mesh.clone(), material(), experiment, settings).expect("the run starts")
+    Solver::of_solid(Ranks::alone(), mesh.clone(), material(), experiment, settings).expect("the run starts")
 }
 
 /// Keeps everything that a run gives.

@@ -1,5 +1,6 @@
 //! Gauges: layers or patches of a solid whose mean velocity and stress every probe records.
 
+use crate::domain::Domain;
 use crate::forces::solid::Measure;
 use crate::loading::{Carried, mean};
 use crate::mesh::solid::Solid;
@@ -35,17 +36,21 @@ impl Gauge {
     }
 
     /// Mean velocity x, y, z, nm/ps, and virial stress xx, yy, zz, yz, xz, xy, eV/nm^3, with this reference volume of a site,
-    /// nm^3. Not numbers where there are no sites.
-    pub fn read(&self, state: &State<3>, measure: &Measure, site_volume: f64) -> [f64; 9] {
-        let velocity = mean(&self.shares, &state.velocity);
-        let (mut stress, mut sites) = ([0.0; 6], 0.0);
-        for &(element, [count, all]) in &self.elements {
-            let virial = measure.virial(element as usize);
-            (0..6).for_each(|part| stress[part] += virial[part] * count / all);
-            sites += count;
+    /// nm^3. Not numbers where there are no sites. All ranks must ask for it together.
+    pub fn read(&self, domain: &Domain, state: &State<3>, measure: &Measure, site_volume: f64) -> [f64; 9] {
+        let [x, y, z] = mean(domain, &self.shares, &state.velocity);
+        let mut terms = vec![[0.0; 6]; self.elements.len()];
+        let own = terms.iter_mut().zip(&self.elements);
+        for (term, &(element, [count, all])) in own.filter(|(_, (element, _))| domain.is_mine(*element as usize)) {
+            *term = measure.virial(element as usize).map(|virial| virial * count / all);
         }
-        let [x, y, z] = velocity;
-        let [xx, yy, zz, yz, xz, xy] = stress.map(|virial| virial / (sites * site_volume));
+        let all = domain.ranks().merge(terms.as_flattened());
+        let mut sum = [0.0; 6];
+        for term in all.as_chunks::<6>().0 {
+            (0..6).for_each(|part| sum[part] += term[part]);
+        }
+        let sites: f64 = self.elements.iter().map(|(_, [count, _])| count).sum();
+        let [xx, yy, zz, yz, xz, xy] = sum.map(|virial| virial / (sites * site_volume));
         [x, y, z, xx, yy, zz, yz, xz, xy]
     }
 }

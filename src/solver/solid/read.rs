@@ -4,7 +4,6 @@ use super::keep::Kept;
 use super::{Solid, site_volume};
 use crate::analysis::columns::Columns;
 use crate::forces::solid::Measure;
-use crate::lanes;
 use crate::mesh::solid::Solid as Mesh;
 use crate::solver::body::{Instruments, Totals};
 use crate::solver::clock::Clock;
@@ -42,8 +41,10 @@ impl Instruments<3> for Solid {
         until.is_reached(clock, |time| self.strain_by_rate(time))
     }
 
+    /// All ranks read; the first alone is given what is read.
     fn read(&mut self, state: &mut State<3>, totals: &Totals) -> Option<Row> {
-        self.last_strain = self.extension.strain(&state.position) - self.strain_at_rest;
+        self.last_strain = self.measured_strain(state) - self.strain_at_rest;
+        let domain = self.forces.domain();
         let Totals {
             clock,
             kinetic,
@@ -53,19 +54,22 @@ impl Instruments<3> for Solid {
         let mut numbers = vec![clock.time, self.last_strain];
         numbers.extend(self.mean_stress());
         numbers.extend([kinetic, balance.potential, balance.work, balance.cutoff_release]);
+        let velocities = state.velocity.iter_mut();
+        velocities.for_each(|plane| domain.gather_atoms(plane));
         numbers.push(self.thermometer.read(state));
         numbers.push(self.broken.count(&self.forces) as f64);
-        numbers.extend(self.loading.pulls(state).flat_map(|(_, pull)| pull));
+        numbers.extend(self.loading.pulls(state, domain.ranks()).into_flattened());
         let volume = site_volume(self.forces.mesh());
         let gauges = self.gauges.iter();
-        numbers.extend(gauges.flat_map(|gauge| gauge.read(state, &self.measure, volume)));
-        Some(Row {
-            step: clock.step,
-            numbers,
-        })
+        numbers.extend(gauges.flat_map(|gauge| gauge.read(domain, state, &self.measure, volume)));
+        let step = clock.step;
+        domain.ranks().is_first().then_some(Row { step, numbers })
     }
 
     fn picture(&mut self, _: &State<3>) -> Vec<f64> {
+        let domain = self.forces.domain();
+        let planes = self.measure.planes_mut().into_iter();
+        planes.for_each(|plane| domain.gather_elements(plane));
         self.broken.shares(&self.forces)
     }
 
@@ -75,7 +79,7 @@ impl Instruments<3> for Solid {
 
     fn keep(&self) -> Kept {
         Kept {
-            works: self.loading.booked(),
+            works: self.loading.booked(self.forces.domain().ranks()),
             last_strain: self.last_strain,
         }
     }
@@ -85,7 +89,7 @@ impl Instruments<3> for Solid {
         if open_interfaces.iter().any(|&number| number as usize >= interfaces) {
             return Err("it has other interfaces");
         }
-        match kept.works.len() == self.loading.booked().len() {
+        match kept.works.len() == self.loading.node_count() {
             true => Ok(()),
             false => Err("its loading acts on another number of nodes"),
         }
@@ -106,8 +110,10 @@ impl Solid {
 
     /// Average virial stress xx, yy, zz, yz, xz, xy over the reference volume, eV/nm^3.
     fn mean_stress(&self) -> [f64; 6] {
-        let elements = self.forces.mesh().elements.len();
-        let sums = lanes::sums(elements, |element| self.measure.virial(element));
+        let sums = self
+            .forces
+            .domain()
+            .sum_elements(|element| self.measure.virial(element));
         sums.map(|virial| virial / self.setting.volume)
     }
 
