@@ -4,17 +4,17 @@ mod figures;
 mod findings;
 mod method;
 mod overview;
+mod picture;
 mod series;
 mod tables;
 mod verdict;
 
-pub use figures::is_of_a_report;
 pub use series::{Gauge, Series};
 
 use std::path::Path;
 
 use super::page::Solids;
-use super::{CaseResult, ReportError, Study, save};
+use super::{CaseResult, Film, ReportError, Study, save};
 use findings::Findings;
 
 /// What a case of a solid has beside what any case has.
@@ -23,8 +23,8 @@ pub struct Solid {
     pub specimen: Specimen,
     /// `None` where nothing was computed or nothing can be read.
     pub series: Option<Series>,
-    /// Whether the run has left pictures.
-    pub has_pictures: bool,
+    /// The pictures that the run took.
+    pub film: Option<Film<[f64; 3]>>,
 }
 
 /// A solid as it is laid out; in words where the page shows words.
@@ -39,6 +39,8 @@ pub struct Specimen {
     pub loading: String,
     /// Where the loading pulls, of length 1.
     pub direction: [f64; 3],
+    /// Distance of nearest neighbours, nm.
+    pub spacing: f64,
     pub nodes: u64,
     pub elements: u64,
     pub atoms: u64,
@@ -66,12 +68,24 @@ impl Analysed<'_> {
         self.solid.series.as_ref()
     }
 
+    /// Its name as part of the name of a file.
+    fn file_part(&self) -> String {
+        let plain = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
+        let letters = self.name().chars();
+        letters.map(|letter| if plain(letter) { letter } else { '-' }).collect()
+    }
+
     /// Atoms times steps over the wall time, /s.
     fn atom_steps_a_second(&self) -> Option<f64> {
         let manifest = &self.result.manifest;
         let wall = manifest.wall_seconds.filter(|&wall| wall > 0.0)?;
         Some(self.solid.specimen.atoms as f64 * manifest.steps? as f64 / wall)
     }
+}
+
+/// Whether a report may have drawn a file of this name.
+pub fn is_of_a_report(name: &str) -> bool {
+    figures::is_of_a_report(name) || picture::is_of_a_report(name)
 }
 
 /// The case with the most nodes that has come to its end: what the others are measured against.
@@ -108,6 +122,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         save(&file, svg.standalone.as_bytes())?;
         drawn.push(svg);
     }
+    let galleries = picture::galleries(&cases, &folder.join("figures"))?;
     let results: Vec<&CaseResult> = cases.iter().map(|case| case.result).collect();
     let page = Solids {
         study,
@@ -118,7 +133,7 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         tables: &tables,
         charts: &charts,
         drawn: &drawn,
-        galleries: &[],
+        galleries: &galleries,
     };
     save(&folder.join("report.html"), page.html()?.as_bytes())?;
     save(&folder.join("report.md"), page.markdown()?.as_bytes())

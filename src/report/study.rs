@@ -90,7 +90,7 @@ impl CaseResult {
 
     /// Whether its run has left pictures.
     pub fn has_pictures(&self) -> bool {
-        self.film.is_some() || self.solid.as_ref().is_some_and(|solid| solid.has_pictures)
+        self.film.is_some() || self.solid.as_ref().is_some_and(|solid| solid.film.is_some())
     }
 }
 

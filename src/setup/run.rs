@@ -76,7 +76,15 @@ pub fn run_case(
             let set_up = || slab::shared_solver(case, slab, ranks);
             compute(case, set_up, into, ranks, stop, tell, warn)
         }
-        Body::Solid(solid) => compute(case, || solid::solver(case, solid), into, ranks, stop, tell, warn),
+        Body::Solid(solid) => compute(
+            case,
+            || solid::solver(case, solid, ranks),
+            into,
+            ranks,
+            stop,
+            tell,
+            warn,
+        ),
     })
 }
 

@@ -14,6 +14,7 @@ pub use specimen::{Kind, Specimen};
 pub use experiment::{LOADING, gauge_name};
 
 use super::{SetupError, interaction};
+use crate::domain::Ranks;
 use crate::material::Material;
 use crate::mesh::solid::Solid as Mesh;
 use crate::solver::{self, Solver};
@@ -80,13 +81,22 @@ pub fn refuse_what_is_not_there(case: &Case, solid: &Solid) -> Result<(), SetupE
     }
 }
 
-/// The solver of a solid at the start of its run, on one rank.
-pub fn solver(case: &Case, solid: &Solid) -> Result<Solver<solver::Solid, 3>, SetupError> {
+/// The part of this rank in a solver of a solid at the start of its run.
+pub fn solver(case: &Case, solid: &Solid, ranks: Ranks) -> Result<Solver<solver::Solid, 3>, SetupError> {
     refuse_what_is_not_there(case, solid)?;
     let material = material(solid)?;
     let laid = lay_out(solid, material.spacing)?;
-    estimate::refuse_what_does_not_fit(specimen::site_count(&laid.plan), solid.resolution.element, 1)?;
+    let sites = specimen::site_count(&laid.plan);
+    estimate::refuse_what_does_not_fit(sites, solid.resolution.element, ranks.here())?;
+    // All have looked at what is free before any takes of it.
+    ranks.wait_for_all();
     let mesh = Mesh::new(&laid.plan);
     let experiment = experiment::experiment(solid, &laid, &mesh, &material)?;
-    Ok(Solver::of_solid(mesh, material, experiment, settings(case, solid))?)
+    Ok(Solver::of_solid(
+        ranks,
+        mesh,
+        material,
+        experiment,
+        settings(case, solid),
+    )?)
 }

@@ -150,7 +150,7 @@ fn read(result: &mut CaseResult, case: &Case, folder: &Path, with_film: bool) ->
             result.film = film;
             Ok(())
         }
-        Body::Solid(body) => solid::read(result, body, folder),
+        Body::Solid(body) => solid::read(result, body, folder, with_film),
     }
 }
 

@@ -99,10 +99,10 @@ fn broken(cases: &[Analysed]) -> Chart {
     chart(
         cases,
         "broken-bonds",
-        "Broken bonds",
+        "Bonds lost",
         "Pairs of atoms that have left the cutoff since the start, less those that have come within it: cracks and slip break \
          bonds, and what is pressed together gains some.",
-        "broken bonds",
+        "bonds lost",
         curves(cases, |_, series| {
             let start = series.broken.first().copied().unwrap_or(0.0);
             series.broken.iter().map(|broken| broken - start).collect()
@@ -176,7 +176,7 @@ fn gauges(case: &Analysed) -> Vec<Chart> {
         Content::Curves(series.gauges.iter().enumerate().map(curve).collect())
     };
     let of = |kind: &str, y: &str, content: Content| Chart {
-        id: format!("gauges-{kind}-{}", file_part(case.name())),
+        id: format!("gauges-{kind}-{}", case.file_part()),
         title: format!("{kind} at the gauges: {}", case.name()),
         caption: format!("Mean {kind} over planes across the solid, in the direction in which the loading pulls."),
         detail: false,
@@ -226,7 +226,7 @@ fn energies(case: &Analysed) -> Chart {
         ("cutoff release", |series| &series.release),
     ];
     Chart {
-        id: format!("energy-{}", file_part(case.name())),
+        id: format!("energy-{}", case.file_part()),
         title: format!("Energies of {}", case.name()),
         caption: "Work of the loading, and where it went, since the start.".to_owned(),
         detail: true,
@@ -235,12 +235,4 @@ fn energies(case: &Analysed) -> Chart {
         y: "energy (eV)".to_owned(),
         content: Content::Curves(parts.into_iter().enumerate().map(curve).collect()),
     }
-}
-
-/// A name as part of the name of a file.
-fn file_part(name: &str) -> String {
-    let plain = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
-    name.chars()
-        .map(|letter| if plain(letter) { letter } else { '-' })
-        .collect()
 }

@@ -8,9 +8,9 @@ use super::series::Series;
 pub struct Findings {
     /// Greatest mean stress in the direction of the pull, whatever its sign.
     pub peak: Option<Moment>,
-    /// When bonds are first seen to be broken.
+    /// When bonds are first seen to be others than at the start: broken, or made where something is pressed together.
     pub first_break: Option<Moment>,
-    /// Broken bonds at the end.
+    /// Bonds lost at the end, less those made.
     pub broken: Option<f64>,
     /// Slope of the stress over the strain before anything breaks, least squares.
     pub modulus: Option<f64>,
@@ -49,7 +49,7 @@ impl Findings {
         };
         let largest = (0..pull.len()).max_by(|&a, &b| pull[a].abs().total_cmp(&pull[b].abs()));
         let at_start = series.broken.first().copied();
-        let breaks = at_start.and_then(|start| series.broken.iter().position(|&broken| broken > start));
+        let breaks = at_start.and_then(|start| series.broken.iter().position(|&broken| broken != start));
         let hottest = series.temperature.iter().copied().filter(|kelvin| kelvin.is_finite());
         Self {
             peak: largest.map(moment),

@@ -17,14 +17,14 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 .to_owned(),
         ),
         (
-            "Broken bonds",
+            "Bonds lost",
             "Pairs of atoms that have left the cutoff since the start, less those that have come within it, from the energy \
              that they release there. Slip along a plane breaks bonds too, and makes others."
                 .to_owned(),
         ),
         (
             "Modulus",
-            "Least squares of stress over strain up to 1 % strain or the first broken bond; the waves of a loading from rest \
+            "Least squares of stress over strain up to 1 % strain or the first change of bonds; the waves of a loading from rest \
              are in it."
                 .to_owned(),
         ),

@@ -90,14 +90,14 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
             case.findings.peak.map(|peak| three(peak.stress * GIGAPASCAL))
         }),
         row(cases, "greatest stress at", |case| case.findings.peak.map(when)),
-        row(cases, "first broken bond at", |case| {
+        row(cases, "bonds first change at", |case| {
             case.findings.first_break.map(when)
         }),
         row(cases, "stress there (GPa)", |case| {
             case.findings.first_break.map(|start| three(start.stress * GIGAPASCAL))
         }),
-        row(cases, "bonds broken at the end", |case| {
-            case.findings.broken.map(|broken| count(broken.max(0.0) as u64))
+        row(cases, "bonds lost at the end", |case| {
+            case.findings.broken.map(|broken| significant(broken, 9))
         }),
         row(cases, "borders of elements open at the end", |case| {
             let open = case.series()?.open_interfaces.last().copied()?;
@@ -127,10 +127,10 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
     vec![
         against("modulus", &|case| case.findings.modulus),
         against("greatest stress", &|case| Some(case.findings.peak?.stress)),
-        against("strain at the first broken bond", &|case| {
+        against("strain at the first change of bonds", &|case| {
             case.findings.first_break?.strain
         }),
-        against("time of the first broken bond", &|case| {
+        against("time of the first change of bonds", &|case| {
             Some(case.findings.first_break?.time)
         }),
         against("period", &|case| Some(case.findings.period?.0)),

@@ -40,7 +40,7 @@ fn answer(case: &Analysed) -> Option<String> {
         parts.push(format!("period {} ps", significant(period, 4)));
     }
     if let Some(start) = found.first_break {
-        parts.push(format!("first bond broken at {}", when(start.strain, start.time)));
+        parts.push(format!("bonds first change at {}", when(start.strain, start.time)));
     }
     if let Some(peak) = found.peak {
         let stress = three(peak.stress * GIGAPASCAL);

@@ -44,6 +44,8 @@ pub struct Specimen {
     pub loading: String,
     /// Where the loading pulls, of length 1.
     pub direction: [f64; 3],
+    /// Distance of nearest neighbours, nm.
+    pub spacing: f64,
     /// By falling size.
     pub kinds: Vec<Kind>,
     pub nodes: u64,
@@ -79,6 +81,7 @@ impl Specimen {
             held: solid.held.as_ref().map(|held| words::held(solid, held, laid)),
             loading: words::loading(solid, laid),
             direction: laid.pull_direction(solid),
+            spacing: laid.plan.spacing,
             leftover_share: is_meshed.then(|| leftover as f64 / sites.max(1) as f64),
             absent: wanted.iter().rev().find(has).copied().filter(|_| is_meshed),
             computation: computation(case, solid, laid, &kinds),

@@ -5,8 +5,8 @@ use std::path::Path;
 use crate::analysis::columns::{Columns, SolidSetting};
 use crate::cli::specimen::solid::{kinds, notch};
 use crate::record::{self, FIELDS_FILE, RecordError, SERIES_FILE};
-use crate::report::CaseResult;
 use crate::report::solid::{Gauge, Series, Specimen};
+use crate::report::{CaseResult, Film};
 use crate::setup::solid::{LOADING, Specimen as Laid, gauge_name, material};
 use crate::study::case::Solid;
 
@@ -20,6 +20,7 @@ pub fn tell(result: &mut CaseResult, laid: &Laid) {
         held: laid.held.clone().unwrap_or_else(|| "nothing".to_owned()),
         loading: laid.loading.clone(),
         direction: laid.direction,
+        spacing: laid.spacing,
         nodes: laid.nodes,
         elements: laid.elements,
         atoms: laid.sites,
@@ -35,11 +36,15 @@ pub fn tell(result: &mut CaseResult, laid: &Laid) {
 }
 
 /// Reads what a run of a solid has left.
-pub fn read(result: &mut CaseResult, solid: &Solid, folder: &Path) -> Result<(), RecordError> {
+pub fn read(result: &mut CaseResult, solid: &Solid, folder: &Path, with_film: bool) -> Result<(), RecordError> {
     let (setting, columns) = record::read_series::<SolidSetting>(&folder.join(SERIES_FILE))?;
     let told = result.solid.get_or_insert_default();
     told.series = Some(series(solid, &setting, &columns));
-    told.has_pictures = folder.join(FIELDS_FILE).exists();
+    let fields = folder.join(FIELDS_FILE);
+    if with_film && fields.exists() {
+        let (mesh, frames) = record::read_fields(&fields)?;
+        told.film = Some(Film::stored(mesh, frames));
+    }
     Ok(())
 }
 
