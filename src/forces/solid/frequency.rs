@@ -19,6 +19,7 @@ impl Forces {
         let interaction = &self.material.interaction;
         let shortest = self.shortest_bond(position).min(self.material.spacing);
         let stiffer = interaction.curvature(shortest) / interaction.curvature(self.material.spacing);
+        let stiffer = self.domain.ranks().largest(stiffer);
         // Where parts border on other parts of their size alone, the ends of a bond across a face may share it unevenly.
         let is_uniform = self.interfaces.lonely.iter().all(|side| side.is_free) && self.mesh.atom_count() == 0;
         let mut sizes: Vec<i32> = self.classes.keys().map(|&(_, size)| size).collect();
@@ -107,11 +108,12 @@ impl Forces {
         largest / (element.lumped_mass() * self.material.site_mass)
     }
 
-    /// The shortest of all bonds, nm: inside parts and across intact interfaces from the bonds of classes, among points from
+    /// The shortest bond of this rank, nm: inside parts and across intact interfaces from the bonds of classes, among points from
     /// their lists.
     fn shortest_bond(&self, position: &super::Planes) -> f64 {
         let mut least = f64::INFINITY;
-        for (part, element) in self.mesh.elements[..self.mesh.parts].iter().enumerate() {
+        for part in self.domain.grouped() {
+            let element = self.mesh.elements[part];
             let nodes: Vec<[f64; 3]> = self
                 .mesh
                 .nodes_of(part)
