@@ -28,6 +28,7 @@ mod vector;
 pub use measure::Measure;
 
 use std::collections::HashMap;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use pulp::Arch;
@@ -81,6 +82,8 @@ pub struct Forces {
     /// `None` before the first search and after an interface has opened.
     pairs: Option<Pairs>,
     farthest: f64,
+    /// The squared highest frequency of the crystal at rest, 1/ps^2, once it has been asked for.
+    frequency_at_rest: OnceLock<f64>,
     arch: Arch,
     searches: u64,
     search_time: Duration,
@@ -130,6 +133,7 @@ impl Forces {
             few: few.collect(),
             classes,
             pairs: None,
+            frequency_at_rest: OnceLock::new(),
             arch: Arch::new(),
             searches: 0,
             search_time: Duration::ZERO,
