@@ -109,7 +109,7 @@ impl Solver<Solid, 3> {
             represented_atoms: mesh.site_count(),
         };
         let thermometer = Thermometer::new(atoms);
-        let forces = Forces::shared(ranks, mesh, material);
+        let forces = Forces::shared(ranks, mesh, material, settings.summation);
         let mut loading = Together::new(actions);
         loading.keep_to(&forces.domain().nodes());
         let solid = Solid {

@@ -4,6 +4,7 @@ mod checkpoint;
 mod interrupted;
 mod others;
 mod pieces;
+mod solids;
 
 use cgaft::analysis::series::{BondEvent, CrackFrom, Probe, Series, Setting};
 use cgaft::record::frames::{FieldMesh, Frame};
