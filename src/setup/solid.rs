@@ -63,10 +63,10 @@ pub fn refuse_what_is_not_there(case: &Case, solid: &Solid) -> Result<(), SetupE
             "leave out blocks instead: `notch: {blocks: {from: [0, 20, 0], to: [10, 21, 1]}}`",
         ),
         (
-            case.run.summation != Summation::Exact,
+            !matches!(case.run.summation, Summation::Exact | Summation::Gauss { .. }),
             Subject::Summation,
-            "in this version every bond of a solid is summed",
-            "leave `summation` out",
+            "in this version a solid is summed by every bond, or by a few points a patch where faces are hardly bent",
+            "write `summation: {gauss: 6}`, `{gauss: 3}` or `exact`",
         ),
         (
             case.run.mass != MassMatrix::Lumped,

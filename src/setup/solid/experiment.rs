@@ -306,7 +306,7 @@ mod tests {
         let mut actions = experiment.actions;
         let (name, push) = &mut actions[0];
         push.force(&mut state, 0.0);
-        let pull = push.pull(&state);
+        let pull = push.pull(&state, crate::domain::Ranks::alone());
         let expected = laid.area(Axis::Second) / crate::units::EV_PER_NM3_IN_GPA;
         assert_eq!(name, LOADING);
         assert!((pull[1] / expected - 1.0).abs() < 1e-12, "{pull:?} {expected}");
