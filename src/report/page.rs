@@ -6,7 +6,7 @@ use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::table::Table;
 use super::tables::{cheapest, comparison, specimen, speed_against_error};
-use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling, verdict};
+use super::{Analysed, CaseResult, ReportError, Study, agreement, method, numbers, scaling, verdict};
 use crate::plan::Comparison;
 use crate::units::amounts::duration;
 use minijinja::syntax::SyntaxConfig;
@@ -43,15 +43,6 @@ impl Page<'_> {
     }
 
     fn render(&self, name: &'static str, template: &'static str) -> Result<String, ReportError> {
-        let mut environment = Environment::new();
-        environment.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
-        environment.set_auto_escape_callback(|name| match name.ends_with(".html") {
-            true => AutoEscape::Html,
-            false => AutoEscape::None,
-        });
-        environment.add_filter("cell", markdown_cell);
-        environment.add_filter("block", indented);
-        environment.add_template(name, template)?;
         let mut versions = self.cases.iter().map(|case| case.result.manifest.version.as_str());
         let page = context! {
             title => self.study.title.as_ref().unwrap_or(&self.study.name),
@@ -73,16 +64,18 @@ impl Page<'_> {
             galleries => list(self.galleries, gallery),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
             tables => list(self.tables, table),
-            cases => list(self.cases, case),
+            cases => list(self.cases, |analysed| {
+                let mut lines = provenance(analysed.result);
+                lines.extend(analysed.findings.speed_window.map(|time| ("speed fitted over", picoseconds(time))));
+                case(analysed.result, lines)
+            }),
             notes => list(&method::notes(self.cases), pair),
             style => Value::from_safe_string(include_str!("templates/style.css").to_owned()),
             version => versions.find(|version| !version.is_empty()),
         };
-        Ok(environment.get_template(name)?.render(page)?)
+        rendered(name, template, page)
     }
-}
 
-impl Page<'_> {
     /// Where there are many cases each group is a table of its own.
     fn groups(&self) -> Vec<Group> {
         match self.cases.len() > MOST_ABREAST {
@@ -122,6 +115,68 @@ impl Page<'_> {
             rows => list(&lines, |line| line.cells().to_vec().into()),
         }
     }
+}
+
+/// What the page of a study of solids is made from.
+pub struct Solids<'a> {
+    pub study: &'a Study,
+    pub cases: &'a [&'a CaseResult],
+    /// Its first sentences.
+    pub verdict: Vec<String>,
+    pub groups: Vec<Group>,
+    /// How its numbers came about.
+    pub notes: Vec<(&'static str, String)>,
+    pub tables: &'a [Table],
+    pub charts: &'a [Chart],
+    pub drawn: &'a [Drawing],
+    pub galleries: &'a [Gallery],
+}
+
+impl Solids<'_> {
+    pub fn html(&self) -> Result<String, ReportError> {
+        self.render("report.html", include_str!("templates/report.html"))
+    }
+
+    pub fn markdown(&self) -> Result<String, ReportError> {
+        self.render("report.md", include_str!("templates/report.md"))
+    }
+
+    fn render(&self, name: &'static str, template: &'static str) -> Result<String, ReportError> {
+        let mut versions = self.cases.iter().map(|case| case.manifest.version.as_str());
+        let page = context! {
+            title => self.study.title.as_ref().unwrap_or(&self.study.name),
+            name => &self.study.name,
+            question => self.study.question.as_ref(),
+            text => &self.study.text,
+            verdict => self.verdict.join(" "),
+            sentences => &self.verdict,
+            names => list(self.cases, |case| case.name.as_str().into()),
+            many => self.cases.len() > MOST_ABREAST,
+            groups => list(&self.groups, group),
+            galleries => list(self.galleries, gallery),
+            charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
+            tables => list(self.tables, table),
+            cases => list(self.cases, |result| case(result, provenance(result))),
+            notes => list(&self.notes, pair),
+            panels => Vec::<Value>::new(),
+            style => Value::from_safe_string(include_str!("templates/style.css").to_owned()),
+            version => versions.find(|version| !version.is_empty()),
+        };
+        rendered(name, template, page)
+    }
+}
+
+fn rendered(name: &'static str, template: &'static str, page: Value) -> Result<String, ReportError> {
+    let mut environment = Environment::new();
+    environment.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
+    environment.set_auto_escape_callback(|name| match name.ends_with(".html") {
+        true => AutoEscape::Html,
+        false => AutoEscape::None,
+    });
+    environment.add_filter("cell", markdown_cell);
+    environment.add_filter("block", indented);
+    environment.add_template(name, template)?;
+    Ok(environment.get_template(name)?.render(page)?)
 }
 
 /// A list for the template.
@@ -167,23 +222,23 @@ fn row(row: &Row) -> Value {
     context! { label => &row.label, cells => row.cells.clone() }
 }
 
-fn case(case: &Analysed) -> Value {
-    let failure = case.result.failure.as_ref();
+fn case(case: &CaseResult, provenance: Vec<(&'static str, String)>) -> Value {
+    let failure = case.failure.as_ref();
     context! {
-        name => case.name(),
-        resolved => &case.result.resolved,
+        name => &case.name,
+        resolved => &case.resolved,
         failure => failure.map(|failure| context! { reason => &failure.reason, log => &failure.log_tail }),
-        run => list(&provenance(case), pair),
+        run => list(&provenance, pair),
         files => files(case),
     }
 }
 
 /// The files of a published run that a person opens; they stand beside the page.
-fn files(case: &Analysed) -> Vec<&'static str> {
+fn files(case: &CaseResult) -> Vec<&'static str> {
     let mut files = vec!["case.yaml", "manifest.json", "log.txt", "series.h5"];
-    files.extend(case.result.film.as_ref().map(|_| "fields.vtkhdf"));
+    files.extend(case.has_pictures().then_some("fields.vtkhdf"));
     files.push("checkpoint.h5");
-    match case.result.manifest.state.as_str() {
+    match case.manifest.state.as_str() {
         "done" => files,
         _ => Vec::new(),
     }
@@ -194,13 +249,12 @@ fn pair((label, value): &(&'static str, String)) -> Value {
 }
 
 /// How and where a case ran; what is not known is left out.
-fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
-    let manifest = &case.result.manifest;
-    let picoseconds = |value: f64| format!("{} ps", numbers::significant(value, 4));
+fn provenance(case: &CaseResult) -> Vec<(&'static str, String)> {
+    let manifest = &case.manifest;
     let lines = [
         ("state", Some(manifest.state.clone())),
         ("ended because", manifest.end_reason.clone()),
-        ("case hash", Some(case.result.id.clone())),
+        ("case hash", Some(case.id.clone())),
         ("program", Some(manifest.version.clone())),
         ("commit", manifest.commit.clone()),
         ("host", manifest.host.clone()),
@@ -215,10 +269,13 @@ fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
         ),
         ("time step", manifest.time_step.map(picoseconds)),
         ("stability limit", manifest.stability_limit.map(picoseconds)),
-        ("speed fitted over", case.findings.speed_window.map(picoseconds)),
     ];
     let known = lines.into_iter().filter_map(|(label, value)| Some((label, value?)));
     known.filter(|line| !line.1.is_empty()).collect()
+}
+
+fn picoseconds(value: f64) -> String {
+    format!("{} ps", numbers::significant(value, 4))
 }
 
 /// Text that stays within a cell of a Markdown table and is not taken for markup.

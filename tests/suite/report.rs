@@ -65,6 +65,7 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
         film: Some(film(&setting, if name == "coarse" { 10 } else { 1 })),
         setting: Some(setting),
         series,
+        solid: None,
         manifest: Manifest {
             state: "done".to_owned(),
             version: "0.1.0".to_owned(),
