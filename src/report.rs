@@ -103,11 +103,9 @@ impl Analysed<'_> {
         Some(self.findings.peak_speed()? / self.rayleigh_speed()?)
     }
 
-    /// Cores taken times wall time, s.
+    /// Time that processors worked, s.
     fn core_seconds(&self) -> Option<f64> {
-        let manifest = &self.result.manifest;
-        let as_at_the_end = || Some(f64::from(manifest.ranks? * manifest.threads?) * manifest.wall_seconds?);
-        manifest.core_seconds.or_else(as_at_the_end)
+        self.result.manifest.core_seconds
     }
 
     /// What a simulated picosecond costs, in seconds of one core.

@@ -111,7 +111,7 @@ pub struct Manifest {
     pub started: Option<String>,
     pub ended: Option<String>,
     pub wall_seconds: Option<f64>,
-    /// Wall time times the cores taken, if they were not the same all the time; s.
+    /// Time that processors worked for all ranks and threads, s.
     pub core_seconds: Option<f64>,
     /// Which condition ended the run.
     pub end_reason: Option<String>,

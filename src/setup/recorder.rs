@@ -12,7 +12,7 @@ use crate::record::frames::FieldMesh;
 use crate::record::{self, CHECKPOINT_FILE, Picture, RecordError};
 use crate::solver::checkpoint::Checkpoint;
 use crate::solver::{self, Cost, Moment, Observer, Progress, Reading, Solver, site_volume};
-use crate::store::{Account, Phase};
+use crate::store::{Account, Phase, Spent};
 
 /// Keeps probes in memory until the next checkpoint, and writes snapshots at once.
 pub struct Recorder<'a> {
@@ -59,8 +59,8 @@ impl<'a> Recorder<'a> {
     }
 
     /// What this attempt and those before it have cost.
-    pub fn total_cost(&self, cost: &Cost) -> Vec<Phase> {
-        self.account.total(&phases(cost))
+    pub fn total_cost(&self, cost: &Cost) -> Spent {
+        self.account.total(&spent(cost))
     }
 }
 
@@ -133,7 +133,7 @@ impl Observer for Recorder<'_> {
     fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), RunCaseError> {
         self.flush()?;
         record::checkpoint::write(&self.folder.join(CHECKPOINT_FILE), &self.case_id, checkpoint)?;
-        Ok(self.account.save(&phases(cost))?)
+        Ok(self.account.save(&spent(cost))?)
     }
 
     fn progress(&mut self, progress: &Progress) {
@@ -141,13 +141,16 @@ impl Observer for Recorder<'_> {
     }
 }
 
-fn phases(cost: &Cost) -> Vec<Phase> {
+fn spent(cost: &Cost) -> Spent {
     let phase = |(phase, calls, seconds): (solver::Phase, u64, f64)| Phase {
         name: phase.name().to_owned(),
         calls,
         seconds,
     };
-    cost.rows().map(phase).collect()
+    Spent {
+        core_seconds: cost.core_seconds,
+        phases: cost.rows().map(phase).collect(),
+    }
 }
 
 /// Cells and reference positions, x from the left edge and y from the crack plane.
