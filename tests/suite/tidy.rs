@@ -20,9 +20,10 @@ const FLOORS: [&[&str]; 10] = [
 ];
 
 /// What stands for a crate or a system service in the text of a source file, and the modules that may use it.
-const OWNERS: [(&str, &[&str]); 15] = [
+const OWNERS: [(&str, &[&str]); 16] = [
     ("polars", &["report"]),
     ("plotters", &["report"]),
+    ("colorous", &["report"]),
     ("hdf5::", &["record"]),
     ("serde_saphyr", &["study"]),
     ("csv::", &["plan"]),
