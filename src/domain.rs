@@ -2,7 +2,7 @@
 //!
 //! Every rank knows the whole mesh. It computes the forces on its own elements, moves their nodes, and keeps the
 //! positions of those nodes and of its halo, the nodes that its forces depend on, up to date. Elements are numbered row
-//! by row, so a domain is a range of the triangles and a range of the atoms.
+//! by row, so a domain is a range of the elements in groups and a range of the atoms.
 
 #[cfg(not(feature = "mpi"))]
 mod alone;
@@ -23,7 +23,7 @@ pub use mpi::{Ranks, Session, library, start};
 
 use std::ops::Range;
 
-use crate::mesh::Mesh;
+use crate::mesh::grouped::Grouped;
 
 /// Why the ranks cannot work together.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
@@ -68,7 +68,7 @@ pub enum Call {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Burden {
     pub ranks: u32,
-    /// Its part of all triangles by their cost, or of all atoms where that is more; 1 for one rank.
+    /// Its part of all elements in groups by their cost, or of all atoms where that is more; 1 for one rank.
     pub work: f64,
     /// Ranks that it hears from.
     pub messages: u32,
@@ -82,8 +82,10 @@ pub struct Domain {
     ranks: Ranks,
     /// Whose domain it is.
     rank: usize,
-    /// Where every rank's triangles start, and their number at the end.
-    triangles: Vec<usize>,
+    /// Where every rank's elements in groups start, and their number at the end.
+    grouped: Vec<usize>,
+    /// The same for their nodes.
+    nodes: Vec<usize>,
     /// The same for the atoms, which are counted from 0.
     atoms: Vec<usize>,
     /// Calls of this rank that the others have not heard yet, and what has been heard of any.
@@ -92,34 +94,36 @@ pub struct Domain {
 }
 
 impl Domain {
-    /// Cuts a mesh so that all ranks have equal shares of the costs of its triangles and of those of its atoms.
-    pub fn new(ranks: Ranks, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy) -> Self {
+    /// Cuts a mesh so that all ranks have equal shares of the costs of its elements in groups and of those of its atoms.
+    pub fn new(ranks: Ranks, mesh: &impl Grouped, cost: impl Fn(usize) -> f64 + Copy) -> Self {
         Self::part(ranks, [ranks.rank(), ranks.count()], mesh, cost)
     }
 
     /// The parts of all of so many ranks, whoever computes them.
-    pub fn parts(count: usize, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy) -> impl Iterator<Item = Self> {
+    pub fn parts(count: usize, mesh: &impl Grouped, cost: impl Fn(usize) -> f64 + Copy) -> impl Iterator<Item = Self> {
         let first = Self::part(Ranks::alone(), [0, count], mesh, cost);
         (0..count).map(move |rank| Self { rank, ..first.clone() })
     }
 
     /// The part of one of so many ranks.
-    fn part(ranks: Ranks, [rank, count]: [usize; 2], mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy) -> Self {
-        let [triangles, elements] = [mesh.triangles, mesh.elements.len()];
+    fn part(ranks: Ranks, [rank, count]: [usize; 2], mesh: &impl Grouped, cost: impl Fn(usize) -> f64 + Copy) -> Self {
+        let [grouped, elements] = [mesh.grouped(), mesh.element_count()];
+        let starts = cut::equal_shares_of_groups(mesh, (0..grouped).map(cost), count);
         Self {
             ranks,
             rank,
-            triangles: cut::equal_shares_of_groups(mesh, (0..triangles).map(cost), count),
-            atoms: cut::equal_shares((triangles..elements).map(cost), count),
+            nodes: nodes_at(mesh, &starts),
+            grouped: starts,
+            atoms: cut::equal_shares((grouped..elements).map(cost), count),
             called: 0,
             heard: 0,
         }
     }
 
-    /// Cuts anew, from what every rank's triangles and atoms have cost: an element costs what it was thought to, times how far
+    /// Cuts anew, from what every rank's elements in groups and atoms have cost: an element costs what it was thought to, times how far
     /// its rank was off. Nobody knows the numbers of another rank's nodes before they have been shared.
-    pub fn cut_anew(&mut self, mesh: &Mesh, cost: impl Fn(usize) -> f64 + Copy, spent: [&[f64]; 2]) {
-        let count = self.triangles.len() - 1;
+    pub fn cut_anew(&mut self, mesh: &impl Grouped, cost: impl Fn(usize) -> f64 + Copy, spent: [&[f64]; 2]) {
+        let count = self.grouped.len() - 1;
         let costs = |starts: &[usize], first: usize, spent: &[f64]| -> Vec<f64> {
             let costs = starts.windows(2).zip(spent).flat_map(|(ends, &spent)| {
                 let elements = first + ends[0]..first + ends[1];
@@ -128,9 +132,10 @@ impl Domain {
             });
             costs.collect()
         };
-        let of_triangles = costs(&self.triangles, 0, spent[0]);
-        let of_atoms = costs(&self.atoms, mesh.triangles, spent[1]);
-        self.triangles = cut::equal_shares_of_groups(mesh, of_triangles.into_iter(), count);
+        let of_groups = costs(&self.grouped, 0, spent[0]);
+        let of_atoms = costs(&self.atoms, mesh.grouped(), spent[1]);
+        self.grouped = cut::equal_shares_of_groups(mesh, of_groups.into_iter(), count);
+        self.nodes = nodes_at(mesh, &self.grouped);
         self.atoms = cut::equal_shares(of_atoms.iter().copied(), count);
     }
 
@@ -138,9 +143,9 @@ impl Domain {
         self.ranks
     }
 
-    /// My triangles.
-    pub fn triangles(&self) -> Range<usize> {
-        self.triangles[self.rank]..self.triangles[self.rank + 1]
+    /// My elements in groups: triangles, or parts of blocks.
+    pub fn grouped(&self) -> Range<usize> {
+        self.grouped[self.rank]..self.grouped[self.rank + 1]
     }
 
     /// My atoms, counted from 0.
@@ -150,32 +155,28 @@ impl Domain {
 
     /// How many parts there are.
     pub fn count(&self) -> usize {
-        self.triangles.len() - 1
+        self.grouped.len() - 1
     }
 
-    fn triangle_count(&self) -> usize {
-        self.triangles[self.triangles.len() - 1]
+    fn grouped_count(&self) -> usize {
+        self.grouped[self.grouped.len() - 1]
     }
 
-    /// My elements: triangles and atoms.
+    /// My elements: those in groups and atoms.
     pub fn elements(&self) -> [Range<usize>; 2] {
         let atoms = self.atoms();
-        let first = self.triangle_count();
-        [self.triangles(), first + atoms.start..first + atoms.end]
+        let first = self.grouped_count();
+        [self.grouped(), first + atoms.start..first + atoms.end]
     }
 
-    /// My nodes: those of triangles and those of atoms.
+    /// My nodes: those of elements in groups and those of atoms.
     pub fn nodes(&self) -> [Range<usize>; 2] {
-        self.elements().map(|elements| self.nodes_of(elements))
-    }
-
-    /// The nodes of consecutive elements, all triangles or all atoms.
-    fn nodes_of(&self, elements: Range<usize>) -> Range<usize> {
-        let first = |element: usize| {
-            let triangles = element.min(self.triangle_count());
-            2 * triangles + element
-        };
-        first(elements.start)..first(elements.end)
+        let atoms = self.atoms();
+        let first = self.grouped_nodes();
+        [
+            self.nodes[self.rank]..self.nodes[self.rank + 1],
+            first + atoms.start..first + atoms.end,
+        ]
     }
 
     pub fn is_mine(&self, element: usize) -> bool {
@@ -184,8 +185,8 @@ impl Domain {
 
     /// The rank that computes an element.
     pub fn owner(&self, element: usize) -> usize {
-        let (starts, number) = match element.checked_sub(self.triangle_count()) {
-            None => (&self.triangles, element),
+        let (starts, number) = match element.checked_sub(self.grouped_count()) {
+            None => (&self.grouped, element),
             Some(atom) => (&self.atoms, atom),
         };
         starts[1..].partition_point(|&end| end <= number)
@@ -215,48 +216,54 @@ impl Domain {
 
     /// Brings the numbers of all nodes to the first rank, each from the rank that computes it.
     pub fn gather_nodes(&self, plane: &mut [f64]) {
-        let of_triangles = &mut plane[..3 * self.triangle_count()];
-        self.ranks.gather(of_triangles, &self.starts_of_triangle_nodes());
+        let of_groups = &mut plane[..self.grouped_nodes()];
+        self.ranks.gather(of_groups, &self.nodes);
         self.gather_atoms(plane);
     }
 
     /// The same of the atoms alone.
     pub fn gather_atoms(&self, plane: &mut [f64]) {
-        self.ranks.gather(&mut plane[3 * self.triangle_count()..], &self.atoms);
+        self.ranks.gather(&mut plane[self.grouped_nodes()..], &self.atoms);
     }
 
     /// Brings the numbers of all nodes to all ranks, each from the rank that computes it.
     pub fn share_nodes(&self, plane: &mut [f64]) {
-        let (of_triangles, of_atoms) = plane.split_at_mut(3 * self.triangle_count());
-        self.ranks.share(of_triangles, &self.starts_of_triangle_nodes());
+        let (of_groups, of_atoms) = plane.split_at_mut(self.grouped_nodes());
+        self.ranks.share(of_groups, &self.nodes);
         self.ranks.share(of_atoms, &self.atoms);
     }
 
     /// Brings the numbers of all elements to the first rank.
     pub fn gather_elements(&self, plane: &mut [f64]) {
-        let (of_triangles, of_atoms) = plane.split_at_mut(self.triangle_count());
-        self.ranks.gather(of_triangles, &self.triangles);
+        let (of_groups, of_atoms) = plane.split_at_mut(self.grouped_count());
+        self.ranks.gather(of_groups, &self.grouped);
         self.ranks.gather(of_atoms, &self.atoms);
     }
 
     /// Brings the numbers of all elements to all ranks.
     pub fn share_elements(&self, plane: &mut [f64]) {
-        let (of_triangles, of_atoms) = plane.split_at_mut(self.triangle_count());
-        self.ranks.share(of_triangles, &self.triangles);
+        let (of_groups, of_atoms) = plane.split_at_mut(self.grouped_count());
+        self.ranks.share(of_groups, &self.grouped);
         self.ranks.share(of_atoms, &self.atoms);
     }
 
-    fn starts_of_triangle_nodes(&self) -> Vec<usize> {
-        self.triangles.iter().map(|triangle| 3 * triangle).collect()
+    /// How many nodes elements in groups have.
+    fn grouped_nodes(&self) -> usize {
+        self.nodes[self.nodes.len() - 1]
     }
+}
+
+/// Where the nodes of elements start that start groups; how many there are, where the atoms do.
+fn nodes_at(mesh: &impl Grouped, starts: &[usize]) -> Vec<usize> {
+    starts.iter().map(|&start| mesh.first_node(start)).collect()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Plan;
     use crate::mesh::region::{Region, Shape};
     use crate::mesh::sites::Layout;
+    use crate::mesh::{Mesh, Plan};
 
     fn mixed_mesh() -> Mesh {
         let layout = Layout {
@@ -313,7 +320,7 @@ mod tests {
         domain.cut_anew(&mesh, |_| 1.0, [&[1.0; 4], &[3.0, 1.0, 1.0, 1.0]]);
         let share = domain.atoms().len() as f64 / atoms as f64;
         assert!((share - 0.125).abs() < 0.01, "{share}");
-        assert_eq!(domain.triangles(), part(0).triangles());
+        assert_eq!(domain.grouped(), part(0).grouped());
     }
 
     #[test]
@@ -337,7 +344,7 @@ mod tests {
         // The first half costs three quarters of the whole, so that two thirds of it are a half.
         let share = domain.atoms().len() as f64 / atoms as f64;
         assert!((share - 1.0 / 3.0).abs() < 0.01, "{share}");
-        assert!(domain.triangles().is_empty());
+        assert!(domain.grouped().is_empty());
     }
 
     #[test]

@@ -21,6 +21,7 @@ pub mod referee;
 mod regular;
 mod rows;
 mod share;
+pub mod solid;
 mod stiffness;
 mod strings;
 mod summation;
@@ -158,7 +159,7 @@ impl Forces {
         let bordering = share::bordering(&domain, &mesh, &interfaces, &atoms);
         let halo = Halo::ask(&domain, &mesh, &bordering);
         let first_cut = start.elapsed();
-        let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.triangles());
+        let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.grouped());
         let reference = mesh.node_positions();
         let largest = reference
             .iter()
@@ -304,7 +305,7 @@ impl Forces {
 
     /// Whether an interface is one of my triangles'.
     fn is_mine(&self, interface: usize) -> bool {
-        let triangles = self.domain.triangles();
+        let triangles = self.domain.grouped();
         let both = self.interfaces.pairs[interface].both();
         both.iter().any(|&triangle| triangles.contains(&(triangle as usize)))
     }

@@ -1,12 +1,14 @@
 //! What a lattice and a potential make together: spacing at zero pressure, elastic constants, wave speeds, surfaces.
 
+mod cubic;
 mod elasticity;
 mod spacing;
 
+pub use cubic::Cubic;
 pub use elasticity::{Elasticity, WaveSpeeds};
-pub use spacing::zero_pressure_spacing;
+use spacing::zero_pressure_spacing;
 
-use crate::lattice::triangular;
+use crate::lattice::{fcc, triangular};
 use crate::potential::Interaction;
 
 /// A crystal at rest and without pressure. Any consistent units; the program uses nm, ps, eV.
@@ -20,9 +22,24 @@ pub struct Material {
 }
 
 impl Material {
-    /// The crystal of this potential in its zero-pressure state.
+    /// The triangular crystal of this potential in its zero-pressure state; `None` where the potential holds none together.
     pub fn new(interaction: Interaction, site_mass: f64) -> Option<Self> {
-        let spacing = zero_pressure_spacing(&interaction)?;
+        Self::of_shells(interaction, site_mass, |radius| {
+            let bonds = triangular::half_vectors_within(radius).into_iter();
+            bonds.map(|bond| f64::from(triangular::squared_length(bond))).collect()
+        })
+    }
+
+    /// The same of the face-centred cubic crystal, whose constants are those of [`Cubic`].
+    pub fn face_centred_cubic(interaction: Interaction, site_mass: f64) -> Option<Self> {
+        Self::of_shells(interaction, site_mass, |radius| {
+            let bonds = fcc::half_vectors_within(radius).into_iter();
+            bonds.map(|bond| f64::from(fcc::squared_length(bond))).collect()
+        })
+    }
+
+    fn of_shells(interaction: Interaction, site_mass: f64, shells: spacing::Shells) -> Option<Self> {
+        let spacing = zero_pressure_spacing(&interaction, shells)?;
         Some(Self {
             interaction,
             spacing,

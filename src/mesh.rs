@@ -5,18 +5,22 @@
 
 pub mod cut;
 pub mod element;
+pub mod grouped;
 pub mod groups;
 pub mod interfaces;
 mod owners;
 pub mod region;
 pub mod sites;
+pub mod solid;
 mod tiling;
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::lattice::triangular;
 use cut::{Crack, Cut};
 use element::Element;
+use grouped::Grouped;
 use groups::Groups;
 use owners::Owners;
 use region::Region;
@@ -231,6 +235,33 @@ fn target_sizes(plan: &Plan, sites: &SiteSet) -> Vec<u16> {
             .expect("the specimen's own size is there")
     };
     sites.iter().map(size).collect()
+}
+
+impl Grouped for Mesh {
+    fn element_count(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn node_count(&self) -> usize {
+        Self::node_count(self)
+    }
+
+    fn grouped(&self) -> usize {
+        self.triangles
+    }
+
+    fn group_number(&self, element: usize) -> usize {
+        self.groups.number_of(element)
+    }
+
+    fn group_count(&self) -> usize {
+        self.groups.all().len()
+    }
+
+    fn group(&self, number: usize) -> [Range<usize>; 2] {
+        let group = &self.groups.all()[number];
+        [group.elements.clone(), group.nodes()]
+    }
 }
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ impl Ranks {
         mine
     }
 
-    /// Numbers of which each is zero on all ranks but one, as that one has them.
+    /// Sums of the numbers of all ranks, the same on all of them: as one has them where the others have zeros.
     pub fn merge(self, mine: &[f64]) -> Vec<f64> {
         mine.to_vec()
     }

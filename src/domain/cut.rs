@@ -1,6 +1,6 @@
 //! Where to cut.
 
-use crate::mesh::Mesh;
+use crate::mesh::grouped::Grouped;
 
 /// Starts of the parts of a sequence that all cost about the same, and its length at the end: an item belongs to the part in
 /// which its middle lies, so that no part is farther from its share than an item.
@@ -22,15 +22,16 @@ pub fn equal_shares(costs: impl Iterator<Item = f64> + Clone, parts: usize) -> V
     starts
 }
 
-/// The same for the triangles of a mesh, whose groups stay whole: the nodes of a part follow each other.
-pub fn equal_shares_of_groups(mesh: &Mesh, mut costs: impl Iterator<Item = f64>, parts: usize) -> Vec<usize> {
-    let groups = mesh.groups.all();
-    let of_groups: Vec<f64> = groups
-        .iter()
-        .map(|group| costs.by_ref().take(group.len()).sum())
-        .collect();
+/// The same for the elements of a mesh that are in groups, which stay whole: the nodes of a part follow each other.
+pub fn equal_shares_of_groups(mesh: &impl Grouped, mut costs: impl Iterator<Item = f64>, parts: usize) -> Vec<usize> {
+    let groups = 0..mesh.group_count();
+    let sizes = groups.map(|number| mesh.group(number)[0].len());
+    let of_groups: Vec<f64> = sizes.map(|size| costs.by_ref().take(size).sum()).collect();
     let starts = equal_shares(of_groups.iter().copied(), parts).into_iter();
-    let start = |group: usize| groups.get(group).map_or(mesh.triangles, |group| group.elements.start);
+    let start = |number: usize| match number < mesh.group_count() {
+        true => mesh.group(number)[0].start,
+        false => mesh.grouped(),
+    };
     starts.map(start).collect()
 }
 

@@ -3,8 +3,7 @@
 use std::ops::Range;
 
 use super::Domain;
-use crate::mesh::Mesh;
-use crate::mesh::groups::Group;
+use crate::mesh::grouped::Grouped;
 
 /// Which elements some ranks know beside their own, and the parcels in which others tell them of these.
 ///
@@ -13,7 +12,7 @@ use crate::mesh::groups::Group;
 pub struct Halo {
     outgoing: Vec<Parcel>,
     incoming: Vec<Parcel>,
-    /// Elements of others of which it is told, ascending and all triangles or all atoms in each range.
+    /// Elements of others of which it is told, ascending and all in groups or all atoms in each range.
     elements: Vec<Range<usize>>,
 }
 
@@ -23,7 +22,7 @@ pub struct Parcel {
     /// The other rank.
     #[cfg_attr(not(feature = "mpi"), expect(dead_code, reason = "without MPI there are no others"))]
     pub peer: usize,
-    /// None with triangles and atoms.
+    /// None with elements in groups and atoms.
     elements: Vec<Range<usize>>,
     nodes: Vec<Range<usize>>,
     /// Those of one plane after those of the other.
@@ -39,7 +38,7 @@ pub enum Of {
 
 impl Halo {
     /// Asks the other ranks for these elements of theirs, ascending. All ranks must do so at once.
-    pub fn ask(domain: &Domain, mesh: &Mesh, needed: &[u32]) -> Self {
+    pub fn ask(domain: &Domain, mesh: &impl Grouped, needed: &[u32]) -> Self {
         let asked: Vec<Vec<u32>> = by_owner(domain, needed);
         let wanted = domain.ranks.swap(&asked);
         let parcels = |lists: &[Vec<u32>]| {
@@ -57,17 +56,17 @@ impl Halo {
 
     /// Atoms of others whose positions arrive, counted from 0.
     pub fn atoms(&self, domain: &Domain) -> impl Iterator<Item = Range<usize>> {
-        let count = domain.triangle_count();
+        let count = domain.grouped_count();
         let atoms = self.elements.iter().filter(move |range| range.start >= count);
         atoms.map(move |range| range.start - count..range.end - count)
     }
 
     /// Brings the positions of others' nodes up to date while some work is done that does not need them.
-    pub fn exchange<T>(
+    pub fn exchange<T, const D: usize>(
         &mut self,
         domain: &Domain,
-        position: &mut [Vec<f64>; 2],
-        work: impl FnOnce(&[Vec<f64>; 2]) -> T,
+        position: &mut [Vec<f64>; D],
+        work: impl FnOnce(&[Vec<f64>; D]) -> T,
     ) -> T {
         self.pack(Of::Nodes, position.each_ref().map(Vec::as_slice));
         let done = domain
@@ -95,11 +94,14 @@ impl Halo {
 }
 
 impl Parcel {
-    fn new(domain: &Domain, mesh: &Mesh, peer: usize, elements: &[u32]) -> Self {
+    fn new(domain: &Domain, mesh: &impl Grouped, peer: usize, elements: &[u32]) -> Self {
         let elements = ranges(domain, elements);
         Self {
             peer,
-            nodes: elements.iter().flat_map(|elements| nodes_of(mesh, elements)).collect(),
+            nodes: elements
+                .iter()
+                .flat_map(|elements| mesh.nodes_of_range(elements))
+                .collect(),
             elements,
             numbers: Vec::new(),
         }
@@ -140,35 +142,21 @@ impl Parcel {
     }
 }
 
-/// The nodes of consecutive elements, all triangles or all atoms: corner by corner of each group.
-fn nodes_of(mesh: &Mesh, elements: &Range<usize>) -> Vec<Range<usize>> {
-    if elements.start >= mesh.triangles {
-        let first = mesh.node(elements.start, 0);
-        return std::iter::once(first..first + elements.len()).collect();
-    }
-    let groups = mesh.groups.number_of(elements.start)..=mesh.groups.number_of(elements.end - 1);
-    let of_group = |group: &Group| {
-        let part = elements.start.max(group.elements.start)..elements.end.min(group.elements.end);
-        [0, 1, 2].map(|corner| group.node(part.start, corner)..group.node(part.end - 1, corner) + 1)
-    };
-    mesh.groups.all()[groups].iter().flat_map(of_group).collect()
-}
-
 /// Ascending elements, sorted by the rank that computes them.
 fn by_owner(domain: &Domain, elements: &[u32]) -> Vec<Vec<u32>> {
-    let mut lists = vec![Vec::new(); domain.triangles.len() - 1];
+    let mut lists = vec![Vec::new(); domain.grouped.len() - 1];
     elements
         .iter()
         .for_each(|&element| lists[domain.owner(element as usize)].push(element));
     lists
 }
 
-/// Ascending elements as ranges, none with triangles and atoms.
+/// Ascending elements as ranges, none with elements in groups and atoms.
 fn ranges(domain: &Domain, elements: &[u32]) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
     for element in elements.iter().map(|&element| element as usize) {
         match ranges.last_mut() {
-            Some(last) if last.end == element && element != domain.triangle_count() => last.end += 1,
+            Some(last) if last.end == element && element != domain.grouped_count() => last.end += 1,
             _ => ranges.push(element..element + 1),
         }
     }

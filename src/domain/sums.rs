@@ -19,12 +19,12 @@ struct Piece {
 impl Domain {
     /// Some sums over all elements, of which each rank is asked for its own. All ranks must call this together.
     pub fn sum_elements<const N: usize>(&self, term: impl Fn(usize) -> [f64; N] + Sync) -> [f64; N] {
-        self.sum(&self.pieces(|elements| elements), term)
+        self.sum(&self.pieces(&self.grouped), term)
     }
 
     /// The same over all nodes.
     pub fn sum_nodes<const N: usize>(&self, term: impl Fn(usize) -> [f64; N] + Sync) -> [f64; N] {
-        self.sum(&self.pieces(|elements| self.nodes_of(elements)), term)
+        self.sum(&self.pieces(&self.nodes), term)
     }
 
     fn sum<const N: usize>(&self, pieces: &[Piece], term: impl Fn(usize) -> [f64; N] + Sync) -> [f64; N] {
@@ -33,15 +33,15 @@ impl Domain {
         put_together(pieces, all.as_chunks().0)
     }
 
-    /// All terms in pieces by rising number; `items` says which belong to consecutive elements.
-    fn pieces(&self, items: impl Fn(Range<usize>) -> Range<usize>) -> Vec<Piece> {
-        let first_atom = self.triangle_count();
-        let classes = [(&self.triangles, 0), (&self.atoms, first_atom)];
+    /// All terms in pieces by rising number: those of elements in groups, which start there on every rank, then those of atoms.
+    fn pieces(&self, grouped: &[usize]) -> Vec<Piece> {
+        let first_atom = grouped[grouped.len() - 1];
+        let classes = [(grouped, 0), (&self.atoms[..], first_atom)];
         let parts = classes.into_iter().flat_map(|(starts, first)| {
             let ends = starts.windows(2).enumerate();
             ends.map(move |(rank, ends)| (rank, first + ends[0]..first + ends[1]))
         });
-        let parts: Vec<(usize, Range<usize>)> = parts.map(|(rank, elements)| (rank, items(elements))).collect();
+        let parts: Vec<(usize, Range<usize>)> = parts.collect();
         let count = parts.last().map_or(0, |(_, terms)| terms.end);
         let cut = |(rank, terms): (usize, Range<usize>)| {
             let blocks = terms.start / BLOCK..terms.end.div_ceil(BLOCK);
@@ -105,11 +105,13 @@ mod tests {
 
     /// Domains of so many ranks on a specimen of so many triangles and atoms, cut anywhere.
     fn domains(count: usize, triangles: usize, atoms: usize) -> Vec<Domain> {
-        let cut = |length: usize| (0..=count).map(|rank| length * rank * rank / (count * count)).collect();
+        let cut =
+            |length: usize| -> Vec<usize> { (0..=count).map(|rank| length * rank * rank / (count * count)).collect() };
         let domain = |rank| Domain {
             ranks: Ranks::alone(),
             rank,
-            triangles: cut(triangles),
+            nodes: cut(triangles).into_iter().map(|start: usize| 3 * start).collect(),
+            grouped: cut(triangles),
             atoms: cut(atoms),
             called: 0,
             heard: 0,
@@ -124,7 +126,7 @@ mod tests {
             let alone = lanes::sums(3 * triangles + atoms, term);
             for ranks in [1, 2, 3, 7] {
                 let domains = domains(ranks, triangles, atoms);
-                let nodes = |domain: &Domain| domain.pieces(|elements| domain.nodes_of(elements));
+                let nodes = |domain: &Domain| domain.pieces(&domain.nodes);
                 let told = domains.iter().flat_map(|domain| domain.tell(&nodes(domain), term));
                 let together = put_together(&nodes(&domains[0]), &told.collect::<Vec<_>>());
                 assert_eq!(together.map(f64::to_bits), alone.map(f64::to_bits), "{ranks} ranks");

@@ -69,7 +69,7 @@ impl Forces {
         let of_watched = watched.flat_map(|&number| self.interfaces.pairs[number as usize].both());
         let mut uncertain = contact::searched(&self.mesh, &self.interfaces, &self.loosened);
         include(&mut uncertain, of_watched.collect());
-        let mine = self.domain.triangles();
+        let mine = self.domain.grouped();
         uncertain.retain(|&triangle| mine.contains(&(triangle as usize)));
         let ranges = |tile: &Tile| {
             let inside = uncertain.iter().map(|&triangle| triangle as usize);

@@ -141,7 +141,7 @@ impl Contacts {
         for (part, plane) in of_carried.iter_mut().enumerate() {
             plane.resize(if MEASURED || part < 2 { carried } else { 0 }, 0.0);
         }
-        let mine = self.sites_of_triangles(field.domain.triangles());
+        let mine = self.sites_of_triangles(field.domain.grouped());
         let own = of_carried.each_mut().map(|plane| part_of(plane, &mine));
         let places = position.each_ref().map(|plane| &plane[3 * field.mesh.triangles..]);
         self.sum_sites::<S, MEASURED>(field, mine, own, places, Vec::new());
@@ -193,7 +193,7 @@ impl Contacts {
         if self.carrier.is_empty() {
             return;
         }
-        let mine = domain.triangles();
+        let mine = domain.grouped();
         let groups = mesh.groups.of_range(&mine);
         let [nodes, _] = domain.nodes();
         let [x, y, held @ ..] = &self.of_carried;
@@ -240,7 +240,7 @@ impl Contacts {
         self.placed = halo.atoms(domain).chain([domain.atoms()]).collect();
         let carried = self.carrier.len();
         let mut is_met = vec![false; self.partners.site_count() - carried];
-        let mine = self.sites_of_triangles(domain.triangles());
+        let mine = self.sites_of_triangles(domain.grouped());
         let atoms = domain.atoms();
         for sites in [mine, carried + atoms.start..carried + atoms.end] {
             for part in self.partners.parts(sites) {

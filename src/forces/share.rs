@@ -44,7 +44,7 @@ impl Forces {
         let spent = self.spent_by_all.split_at(self.domain.ranks().count()).into();
         let costs = costs(&self.mesh, &self.interfaces);
         self.domain.cut_anew(&self.mesh, costs, spent);
-        self.tiles = tile::tiles(&self.mesh, &self.interfaces, &self.strings, self.domain.triangles());
+        self.tiles = tile::tiles(&self.mesh, &self.interfaces, &self.strings, self.domain.grouped());
         self.bordering = bordering(&self.domain, &self.mesh, &self.interfaces, &self.atoms);
         self.halo = Halo::ask(&self.domain, &self.mesh, &self.bordering);
         self.watched.clear();
@@ -113,7 +113,7 @@ pub fn bordering(domain: &Domain, mesh: &Mesh, interfaces: &Interfaces, atoms: &
         return Vec::new();
     }
     let mut found = Vec::new();
-    let triangles = domain.triangles();
+    let triangles = domain.grouped();
     for triangle in triangles.clone() {
         for &number in interfaces.of(triangle) {
             let pair = interfaces.pairs[number as usize];

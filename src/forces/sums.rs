@@ -165,7 +165,7 @@ impl Forces {
             states: &self.states,
             position,
         };
-        let mine = self.domain.triangles();
+        let mine = self.domain.grouped();
         let [nodes, _] = self.domain.nodes();
         let lengths = self.tiles.iter().map(|tile| tile.triangles.len());
         let of_nodes = lengths.clone().map(|triangles| 3 * triangles);
@@ -226,7 +226,7 @@ impl Forces {
         let words = mine.iter().flat_map(|&(number, state)| [number, state as u32]);
         let words = self.domain.ranks().join(words.collect());
         let mut touched = vec![false; self.tiles.len()];
-        let triangles = self.domain.triangles();
+        let triangles = self.domain.grouped();
         let mut beside = Vec::new();
         let (changed, _) = words.as_chunks::<2>();
         for &[number, state] in changed {

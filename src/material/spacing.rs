@@ -1,16 +1,21 @@
-use crate::lattice::triangular;
 use crate::potential::Interaction;
+
+/// Squared lengths of half of the bonds of a site no longer than a radius, rising, all in spacings.
+pub type Shells = fn(f64) -> Vec<f64>;
 
 /// The lattice spacing at which the crystal of this potential has no pressure and the lowest energy.
 ///
 /// The sum over bonds is scanned for sign changes of its derivative, which also finds the right state where
 /// truncation makes the energy jump as a shell enters. `None`: the potential holds no crystal together.
-pub fn zero_pressure_spacing(interaction: &Interaction) -> Option<f64> {
+pub fn zero_pressure_spacing(interaction: &Interaction, shells: Shells) -> Option<f64> {
     const SCAN: usize = 4000;
     const NARROWEST: f64 = 0.7;
     let widest = interaction.cutoff().min(1.3 * interaction.minimum());
     let narrowest = NARROWEST * interaction.minimum();
-    let site = Site::new(interaction, narrowest);
+    let site = Site {
+        interaction,
+        bonds: shells(interaction.cutoff() / narrowest),
+    };
     let spacings: Vec<f64> = (0..=SCAN)
         .map(|k| narrowest + (widest - narrowest) * k as f64 / SCAN as f64)
         .collect();
@@ -28,18 +33,7 @@ struct Site<'a> {
     bonds: Vec<f64>,
 }
 
-impl<'a> Site<'a> {
-    fn new(interaction: &'a Interaction, narrowest: f64) -> Self {
-        let bonds = triangular::half_vectors_within(interaction.cutoff() / narrowest);
-        let bonds = bonds
-            .into_iter()
-            .map(|bond| f64::from(triangular::squared_length(bond)));
-        Self {
-            interaction,
-            bonds: bonds.collect(),
-        }
-    }
-
+impl Site<'_> {
     fn bisect(&self, mut low: f64, mut high: f64) -> f64 {
         while high > low {
             let middle = 0.5 * (low + high);

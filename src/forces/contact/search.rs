@@ -143,7 +143,7 @@ impl Contacts {
         let lists = candidates.partner_lists(field, lattice, &atoms, &grid, radius);
         let mut contacts = Self::from_lists(field, lattice, &atoms, &candidates, &lists);
         let first_atom = 3 * field.mesh.triangles as u32;
-        let [my_triangles, my_atoms] = [field.domain.triangles(), field.domain.atoms()];
+        let [my_triangles, my_atoms] = [field.domain.grouped(), field.domain.atoms()];
         let mine = triangles
             .iter()
             .filter(|&&triangle| my_triangles.contains(&(triangle as usize)));

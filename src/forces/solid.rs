@@ -1,0 +1,193 @@
+//! Forces on the nodes of a solid as the exact gradient of one energy, the plain sum over site pairs within the cutoff.
+//!
+//! Every pair is summed in exactly one of three ways, as in two dimensions: inside a part by classes of equal bonds
+//! (`inside`), between parts whose interface is intact by patches and strings (`faces`, `edges`), and everywhere else by a
+//! neighbour search (`pairs`). [`referee`] sums over all pairs without any of this.
+//!
+//! Interfaces are used where the potential reaches nearest neighbours alone. One is intact as long as all of its bonds are
+//! within the cutoff and no second neighbours across it are; then it opens for good.
+
+mod drift;
+mod edges;
+mod faces;
+mod frequency;
+mod grid;
+mod inside;
+mod measure;
+mod pairs;
+mod points;
+pub mod referee;
+mod sums;
+mod sweep;
+#[cfg(test)]
+mod tests;
+mod vector;
+
+pub use measure::Measure;
+
+use std::collections::HashMap;
+use std::time::Duration;
+
+use pulp::Arch;
+
+use crate::domain::{Domain, Halo, Ranks};
+use crate::material::Material;
+use crate::mesh::solid::Solid;
+use crate::mesh::solid::element::Shape;
+use crate::mesh::solid::interfaces::{Interfaces, SECOND_NEIGHBOURS};
+use inside::Class;
+use pairs::Pairs;
+use sweep::Tile;
+
+/// Node positions or forces: x, y and z, one entry a node.
+pub type Planes = [Vec<f64>; 3];
+
+/// Why no forces can be computed.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ForceError {
+    #[error("element {element} flew away")]
+    FlewAway { element: usize },
+}
+
+/// Bonds this much longer than the cutoff (in spacings) are summed inside parts, because they come within it where parts are
+/// compressed.
+const LISTED_BEYOND_CUTOFF: f64 = 0.3;
+
+/// Largest coordinate over the largest of the specimen. No fragment flies so far in the time of a run.
+const FARTHEST: f64 = 100.0;
+
+/// What a part costs beside an atom.
+const PART: f64 = 3.0;
+
+/// The force computation of one solid: its mesh and material and what it remembers between steps.
+pub struct Forces {
+    mesh: Solid,
+    domain: Domain,
+    halo: Halo,
+    /// Others' parts that border mine, ascending.
+    bordering: Vec<u32>,
+    material: Material,
+    interfaces: Interfaces,
+    classes: HashMap<(Shape, i32), Vec<Class>>,
+    /// One for each interface that is intact, zero for others.
+    intact: Vec<f64>,
+    tiles: Vec<Tile>,
+    /// `None` before the first search and after an interface has opened.
+    pairs: Option<Pairs>,
+    farthest: f64,
+    arch: Arch,
+    searches: u64,
+    search_time: Duration,
+    exchanges: u64,
+    exchange_time: Duration,
+}
+
+impl Forces {
+    pub fn new(mesh: Solid, material: Material) -> Self {
+        Self::shared(Ranks::alone(), mesh, material)
+    }
+
+    /// The part of this rank in the forces that all ranks compute together.
+    pub fn shared(ranks: Ranks, mesh: Solid, material: Material) -> Self {
+        let reach = material.interaction.cutoff() / material.spacing;
+        let interfaces = Interfaces::new(&mesh, reach);
+        let mut classes = HashMap::new();
+        for group in mesh.groups() {
+            let of_kind = || inside::classes(group.shape, group.size, reach + LISTED_BEYOND_CUTOFF);
+            classes.entry((group.shape, group.size)).or_insert_with(of_kind);
+        }
+        let intact = if reach > SECOND_NEIGHBOURS { 0.0 } else { 1.0 };
+        let places = mesh.node_positions();
+        let largest = places
+            .iter()
+            .flatten()
+            .fold(mesh.spacing, |most: f64, place| most.max(place.abs()));
+        let parts = mesh.parts;
+        let domain = Domain::new(ranks, &mesh, |element| if element < parts { PART } else { 1.0 });
+        let bordering = bordering(&domain, &interfaces);
+        Self {
+            intact: vec![intact; interfaces.pairs.len()],
+            tiles: sweep::tiles(&mesh, &interfaces, domain.grouped(), rayon::current_num_threads()),
+            halo: Halo::ask(&domain, &mesh, &bordering),
+            farthest: FARTHEST * largest,
+            mesh,
+            domain,
+            bordering,
+            material,
+            interfaces,
+            classes,
+            pairs: None,
+            arch: Arch::new(),
+            searches: 0,
+            search_time: Duration::ZERO,
+            exchanges: 0,
+            exchange_time: Duration::ZERO,
+        }
+    }
+
+    pub fn mesh(&self) -> &Solid {
+        &self.mesh
+    }
+
+    pub fn material(&self) -> &Material {
+        &self.material
+    }
+
+    pub fn domain(&self) -> &Domain {
+        &self.domain
+    }
+
+    pub fn domain_mut(&mut self) -> &mut Domain {
+        &mut self.domain
+    }
+
+    /// Numbers of the interfaces that are no longer intact, ascending: the only memory that a restart must keep.
+    pub fn open_interfaces(&self) -> Vec<u32> {
+        let open = (0..).zip(&self.intact).filter(|(_, intact)| **intact == 0.0);
+        open.map(|(number, _)| number).collect()
+    }
+
+    /// Puts back what [`Self::open_interfaces`] gave.
+    pub fn restore_open_interfaces(&mut self, open: &[u32]) {
+        self.intact.fill(1.0);
+        self.open(open);
+    }
+
+    pub fn interface_count(&self) -> usize {
+        self.intact.len()
+    }
+
+    /// The parts on both sides of an interface.
+    pub fn beside(&self, interface: u32) -> [u32; 2] {
+        self.interfaces.pairs[interface as usize]
+    }
+
+    /// How often neighbours were searched, and for how many seconds.
+    pub fn search_cost(&self) -> (u64, f64) {
+        (self.searches, self.search_time.as_secs_f64())
+    }
+
+    /// How often ranks talked, and for how many seconds they waited for each other.
+    pub fn exchange_cost(&self) -> (u64, f64) {
+        (self.exchanges, self.exchange_time.as_secs_f64())
+    }
+
+    fn open(&mut self, interfaces: &[u32]) {
+        interfaces.iter().for_each(|&number| self.intact[number as usize] = 0.0);
+        self.pairs = None;
+    }
+}
+
+/// Others' parts that have interfaces with mine, ascending.
+fn bordering(domain: &Domain, interfaces: &Interfaces) -> Vec<u32> {
+    let mine = domain.grouped();
+    let is_mine = |part: &u32| mine.contains(&(*part as usize));
+    let across = interfaces
+        .pairs
+        .iter()
+        .filter(|pair| is_mine(&pair[0]) != is_mine(&pair[1]));
+    let mut others: Vec<u32> = across.flatten().copied().filter(|part| !is_mine(part)).collect();
+    others.sort_unstable();
+    others.dedup();
+    others
+}

@@ -1,0 +1,130 @@
+//! A bound of the highest frequency, from which the stable time step follows.
+//!
+//! A bond between two elements stores at most twice what its two ends would store each against a wall. So the largest
+//! eigenvalue of each element's own small stiffness bounds that of the whole, as in two dimensions.
+
+use nalgebra::{DMatrix, SymmetricEigen};
+
+use super::Forces;
+use crate::lattice::fcc;
+use crate::mesh::solid::element::{Element, Shape};
+
+/// How finely the share of a bond is sought.
+const BISECTIONS: u32 = 12;
+
+impl Forces {
+    /// Bound of the squared highest frequency with bonds as they are now and lumped masses, 1/ps^2: that of the crystal at rest
+    /// times how much stiffer the stiffest bond is.
+    pub fn squared_frequency_bound(&self, position: &super::Planes) -> f64 {
+        let interaction = &self.material.interaction;
+        let shortest = self.shortest_bond(position).min(self.material.spacing);
+        let stiffer = interaction.curvature(shortest) / interaction.curvature(self.material.spacing);
+        // Where parts border on other parts of their size alone, the ends of a bond across a face may share it unevenly.
+        let is_uniform = self.interfaces.lonely.iter().all(|side| side.is_free) && self.mesh.atom_count() == 0;
+        let mut sizes: Vec<i32> = self.classes.keys().map(|&(_, size)| size).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        let of_parts = sizes.into_iter().map(|size| self.of_block(size, is_uniform));
+        let has_atoms = self.mesh.atom_count() > 0;
+        let of_atoms = has_atoms.then(|| self.at_rest(Shape::Atom, 1, 2.0));
+        of_parts.chain(of_atoms).fold(0.0, f64::max) * stiffer.max(1.0)
+    }
+
+    /// The largest eigenvalue of the parts of a block. A bond between two elements stores no more than (1 + t) times what one
+    /// end would store against a wall and (1 + 1/t) times what the other would; t = 1 without a choice.
+    fn of_block(&self, size: i32, may_choose: bool) -> f64 {
+        let with = |t: f64| {
+            let octahedron = self.at_rest(Shape::Octahedron, size, 1.0 + 1.0 / t);
+            [self.at_rest(Shape::Low, size, 1.0 + t), octahedron]
+        };
+        let mut bounds = with(1.0);
+        if may_choose {
+            let (mut low, mut high) = (0.25, 4.0);
+            for _ in 0..BISECTIONS {
+                let middle = 0.5 * (low + high);
+                let of = with(middle);
+                if of[0].max(of[1]) < bounds[0].max(bounds[1]) {
+                    bounds = of;
+                }
+                if of[0] < of[1] { low = middle } else { high = middle }
+            }
+        }
+        bounds[0].max(bounds[1])
+    }
+
+    /// The largest eigenvalue of an element in the crystal at rest, bonds across faces of blocks counting so many times.
+    fn at_rest(&self, shape: Shape, size: i32, across_faces: f64) -> f64 {
+        let element = Element {
+            shape,
+            size,
+            anchor: [0; 3],
+        };
+        let nodes = shape.node_count();
+        let mut stiffness = DMatrix::<f64>::zeros(3 * nodes, 3 * nodes);
+        let spacing = self.material.spacing;
+        let interaction = &self.material.interaction;
+        let is_octahedral = |site: [i32; 3]| {
+            let local: [i32; 3] = site.map(|component| component.rem_euclid(size));
+            (size - 1..=2 * size - 2).contains(&local.iter().sum())
+        };
+        let is_across_a_face = |site| shape != Shape::Atom && is_octahedral(site) != (shape == Shape::Octahedron);
+        let times_of = |site| if is_across_a_face(site) { across_faces } else { 2.0 };
+        for vector in fcc::half_vectors_within(interaction.cutoff() / spacing) {
+            let bond = fcc::in_the_cube(vector).map(|component| component * spacing);
+            let squared: f64 = bond.iter().map(|component| component * component).sum();
+            let slope = interaction.evaluate(squared).slope;
+            let curvature = interaction.curvature(squared.sqrt());
+            let of_bond = |row: usize, column: usize| {
+                let even = if row == column { slope } else { 0.0 };
+                even + (curvature - slope) * bond[row] * bond[column] / squared
+            };
+            let mut add = |weights: &[f64], times: f64| {
+                for (a, wa) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                    for (b, wb) in weights.iter().enumerate().filter(|(_, weight)| **weight != 0.0) {
+                        for (row, column) in (0..9).map(|number| (number / 3, number % 3)) {
+                            stiffness[(3 * a + row, 3 * b + column)] += times * wa * wb * of_bond(row, column);
+                        }
+                    }
+                }
+            };
+            for local in element.locals() {
+                let own = element.shape_functions(local);
+                let other = std::array::from_fn(|axis| local[axis] + vector[axis]);
+                if element.has_local(other) {
+                    let theirs = element.shape_functions(other);
+                    let difference: [f64; 6] = std::array::from_fn(|node| theirs[node] - own[node]);
+                    add(&difference[..nodes], 1.0);
+                } else {
+                    add(&own[..nodes], times_of(other));
+                }
+                let before = std::array::from_fn(|axis| local[axis] - vector[axis]);
+                if !element.has_local(before) {
+                    add(&own[..nodes], times_of(before));
+                }
+            }
+        }
+        let largest = SymmetricEigen::new(stiffness).eigenvalues.max();
+        largest / (element.lumped_mass() * self.material.site_mass)
+    }
+
+    /// The shortest of all bonds, nm: inside parts and across intact interfaces from the bonds of classes, among points from
+    /// their lists.
+    fn shortest_bond(&self, position: &super::Planes) -> f64 {
+        let mut least = f64::INFINITY;
+        for (part, element) in self.mesh.elements[..self.mesh.parts].iter().enumerate() {
+            let nodes: Vec<[f64; 3]> = self
+                .mesh
+                .nodes_of(part)
+                .map(|node| position.each_ref().map(|plane| plane[node]))
+                .collect();
+            for class in &self.classes[&(element.shape, element.size)] {
+                let (bond, _) = class.bond(element.shape, &nodes);
+                least = least.min(bond.iter().map(|component| component * component).sum());
+            }
+        }
+        if let Some(pairs) = &self.pairs {
+            pairs.for_each(|_, bond| least = least.min(bond.iter().map(|component| component * component).sum()));
+        }
+        least.sqrt()
+    }
+}

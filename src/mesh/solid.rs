@@ -1,0 +1,234 @@
+//! Solids of a face-centred cubic crystal: blocks in tetrahedra and octahedra of any size, atoms, and all of them mixed.
+//!
+//! Elements share no nodes: the parts of blocks come first, row by row along a1, then the atoms. Parts of one shape and size
+//! side by side are a group, whose first nodes have consecutive numbers, then their second, as in [`super::groups`].
+
+pub mod element;
+pub mod interfaces;
+pub mod region;
+pub mod sites;
+pub mod template;
+#[cfg(test)]
+mod tests;
+mod tiling;
+
+use std::ops::Range;
+
+use super::grouped::Grouped;
+use element::{Element, Shape};
+use region::Region;
+use sites::Sites;
+pub use tiling::SMALLEST_BLOCK;
+
+/// What the mesh of a solid is made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plan {
+    pub sites: Sites,
+    /// Atoms an edge of the blocks outside the regions; 1 for atoms everywhere.
+    pub element: u16,
+    pub regions: Vec<Region>,
+    /// Distance of nearest neighbours, nm.
+    pub spacing: f64,
+}
+
+/// Elements, nodes and sites of a solid in its reference state.
+#[derive(Clone, Debug)]
+pub struct Solid {
+    pub sites: Sites,
+    /// Distance of nearest neighbours, nm.
+    pub spacing: f64,
+    pub elements: Vec<Element>,
+    /// Number of elements that are no atoms.
+    pub parts: usize,
+    groups: Vec<Group>,
+    of_part: Vec<u32>,
+    part_nodes: usize,
+}
+
+/// Parts of blocks side by side along a1, alike in shape and size.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    pub shape: Shape,
+    /// Sites along an edge of the block.
+    pub size: i32,
+    pub elements: Range<usize>,
+    first_node: usize,
+}
+
+impl Group {
+    pub fn len(&self) -> usize {
+        self.elements.len()
+    }
+
+    pub fn is_empty(&self) -> bool {
+        self.elements.is_empty()
+    }
+
+    /// The node at a corner of one of its elements.
+    #[inline(always)]
+    pub fn node(&self, element: usize, corner: usize) -> usize {
+        self.first_node + corner * self.len() + (element - self.elements.start)
+    }
+
+    pub fn nodes(&self) -> Range<usize> {
+        self.first_node..self.first_node + self.shape.node_count() * self.len()
+    }
+}
+
+impl Solid {
+    pub fn new(plan: &Plan) -> Self {
+        let (elements, parts) = tiling::tile(&plan.sites, i32::from(plan.element), &plan.regions);
+        let follows = |one: &Element, next: &Element| {
+            let [i, j, k] = one.anchor;
+            let anchor = [i + one.size, j, k];
+            *next == Element { anchor, ..*one }
+        };
+        let (mut groups, mut of_part) = (Vec::new(), Vec::with_capacity(parts));
+        let (mut start, mut first_node) = (0, 0);
+        for run in elements[..parts].chunk_by(follows) {
+            of_part.resize(start + run.len(), groups.len() as u32);
+            let Element { shape, size, .. } = run[0];
+            let elements = start..start + run.len();
+            groups.push(Group {
+                shape,
+                size,
+                elements,
+                first_node,
+            });
+            start += run.len();
+            first_node += shape.node_count() * run.len();
+        }
+        Self {
+            sites: plan.sites.clone(),
+            spacing: plan.spacing,
+            elements,
+            parts,
+            groups,
+            of_part,
+            part_nodes: first_node,
+        }
+    }
+
+    pub fn node_count(&self) -> usize {
+        self.part_nodes + self.elements.len() - self.parts
+    }
+
+    /// Nodes of elements that are no atoms; those of atoms come after them.
+    pub fn part_nodes(&self) -> usize {
+        self.part_nodes
+    }
+
+    pub fn atom_count(&self) -> usize {
+        self.elements.len() - self.parts
+    }
+
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// The group of an element that is no atom.
+    #[inline(always)]
+    pub fn group_of(&self, part: usize) -> &Group {
+        &self.groups[self.of_part[part] as usize]
+    }
+
+    /// The place of an element's group among [`Self::groups`].
+    #[inline(always)]
+    pub fn group_number(&self, part: usize) -> usize {
+        self.of_part[part] as usize
+    }
+
+    /// Number of the node at a corner of an element; an atom is its only one.
+    #[inline(always)]
+    pub fn node(&self, element: usize, corner: usize) -> usize {
+        if element < self.parts {
+            self.group_of(element).node(element, corner)
+        } else {
+            self.part_nodes + element - self.parts
+        }
+    }
+
+    /// Numbers of an element's nodes, corner by corner.
+    pub fn nodes_of(&self, element: usize) -> impl Iterator<Item = usize> + Clone + use<> {
+        let first = self.node(element, 0);
+        let (count, step) = match element < self.parts {
+            true => (self.elements[element].shape.node_count(), self.group_of(element).len()),
+            false => (1, 1),
+        };
+        (0..count).map(move |corner| first + corner * step)
+    }
+
+    /// The element that a node belongs to.
+    pub fn element_of_node(&self, node: usize) -> usize {
+        match node.checked_sub(self.part_nodes) {
+            Some(atom) => self.parts + atom,
+            None => {
+                let after = self.groups.partition_point(|group| group.first_node <= node);
+                let group = &self.groups[after - 1];
+                group.elements.start + (node - group.first_node) % group.len()
+            }
+        }
+    }
+
+    /// Reference positions of the nodes, x, y and z, nm.
+    pub fn node_positions(&self) -> [Vec<f64>; 3] {
+        let mut planes = [0, 1, 2].map(|_| vec![0.0; self.node_count()]);
+        for (number, element) in self.elements.iter().enumerate() {
+            for (node, corner) in self.nodes_of(number).zip(element.corners()) {
+                let place = self.sites.frame.place(element.site(corner));
+                (0..3).for_each(|axis| planes[axis][node] = place[axis]);
+            }
+        }
+        planes
+    }
+
+    /// Lumped mass of every node in site masses.
+    pub fn lumped_masses(&self) -> Vec<f64> {
+        let mut masses = vec![1.0; self.node_count()];
+        for group in &self.groups {
+            masses[group.nodes()].fill(self.elements[group.elements.start].lumped_mass());
+        }
+        masses
+    }
+
+    pub fn site_count(&self) -> u64 {
+        let of_groups = self.groups.iter().map(|group| {
+            let element = &self.elements[group.elements.start];
+            element.site_count() * group.len() as u64
+        });
+        of_groups.sum::<u64>() + self.atom_count() as u64
+    }
+
+    /// What a site of an element that is no atom is made of: nodes and their weights.
+    pub fn carriers(&self, element: usize, local: [i32; 3]) -> impl Iterator<Item = (usize, f64)> + use<> {
+        let weights = self.elements[element].shape_functions(local);
+        self.nodes_of(element).zip(weights).filter(|(_, weight)| *weight != 0.0)
+    }
+}
+
+impl Grouped for Solid {
+    fn element_count(&self) -> usize {
+        self.elements.len()
+    }
+
+    fn node_count(&self) -> usize {
+        Self::node_count(self)
+    }
+
+    fn grouped(&self) -> usize {
+        self.parts
+    }
+
+    fn group_number(&self, element: usize) -> usize {
+        Self::group_number(self, element)
+    }
+
+    fn group_count(&self) -> usize {
+        self.groups.len()
+    }
+
+    fn group(&self, number: usize) -> [Range<usize>; 2] {
+        let group = &self.groups[number];
+        [group.elements.clone(), group.nodes()]
+    }
+}
