@@ -40,7 +40,7 @@ pub struct Point {
     pub name: String,
     pub x: f64,
     pub y: f64,
-    /// Points of one group have one colour, and their best ones are joined.
+    /// Points of one group have one colour, outline and dashes, and their best ones are joined.
     pub group: usize,
     /// Nothing else of its group is both cheaper and nearer.
     pub is_best: bool,
@@ -102,7 +102,13 @@ impl Scatter {
             // Nothing is nearer than the reference itself.
             let reference = self.marks.iter().find(|mark| mark.group == Some(group));
             best.extend(reference.map(|mark| (mark.x, none)));
-            chart.draw_series([PathElement::new(best, color(group).stroke_width(2 * FINE as u32))])?;
+            let stroke = color(group).stroke_width(2 * FINE as u32);
+            match palette::DASHES[group % palette::DASHES.len()] {
+                None => chart.draw_series([PathElement::new(best, stroke)])?,
+                Some((dash, pause)) => {
+                    chart.draw_series(DashedLineSeries::new(best, dash * FINE, pause * FINE, stroke))?
+                }
+            };
         }
         let floor = |mark: &Mark| (mark.x, none);
         if !self.marks.is_empty() {
@@ -144,16 +150,21 @@ impl Scatter {
         };
         let places = labels::places(&labels, DOT, bounds);
         for (number, point) in self.points.iter().enumerate() {
-            let style = match point.is_best {
-                true => color(point.group).filled(),
-                false => color(point.group).stroke_width(FINE as u32),
+            let (at, corners) = ((point.x, point.y), corners(Some(point.group)));
+            match point.is_best {
+                true => {
+                    chart.draw_series([EmptyElement::at(at) + Polygon::new(corners, color(point.group).filled())])?
+                }
+                false => {
+                    let outline: Vec<_> = corners.iter().chain(&corners[..1]).copied().collect();
+                    let stroke = color(point.group).stroke_width(FINE as u32);
+                    chart.draw_series([EmptyElement::at(at) + PathElement::new(outline, stroke)])?
+                }
             };
-            let at = (point.x, point.y);
-            chart.draw_series([EmptyElement::at(at) + Circle::new((0, 0), DOT, style)])?;
             named(&mut chart, at, number, places[number])?;
         }
         for (number, mark) in (self.points.len()..).zip(&self.marks) {
-            let dot = Circle::new((0, 0), DOT, mark.group.map_or(INK, color).filled());
+            let dot = Polygon::new(corners(mark.group), mark.group.map_or(INK, color).filled());
             chart.draw_series([EmptyElement::at(floor(mark)) + dot])?;
             named(&mut chart, floor(mark), number, places[number])?;
         }
@@ -169,6 +180,25 @@ impl Scatter {
         });
         words.collect::<Vec<_>>().join("; ")
     }
+}
+
+/// The outline of a point: a dot, a square or a triangle by its group; what is of none is a diamond.
+fn corners(group: Option<usize>) -> Vec<(i32, i32)> {
+    let (count, turn, size) = match group.map(|group| group % 3) {
+        Some(0) => (16, 0.0, 1.0),
+        Some(1) => (4, 0.125, 1.2),
+        Some(_) => (3, 0.25, 1.3),
+        None => (4, 0.0, 1.4),
+    };
+    let corner = |index: u32| {
+        let angle = std::f64::consts::TAU * (f64::from(index) / f64::from(count) + turn);
+        let radius = size * f64::from(DOT);
+        (
+            (radius * angle.cos()).round() as i32,
+            -(radius * angle.sin()).round() as i32,
+        )
+    };
+    (0..count).map(corner).collect()
 }
 
 fn color(group: usize) -> RGBColor {

@@ -9,7 +9,7 @@ pub const LEFT: u32 = 234;
 /// Room for the half of the last number of the x axis.
 pub const RIGHT: u32 = 76;
 /// Room for the scale of colours.
-pub const TOP: u32 = 176;
+pub const TOP: u32 = 186;
 /// Room for the numbers and the name of the x axis.
 pub const BOTTOM: u32 = 160;
 pub const TALLEST: f64 = 2580.0;

@@ -8,7 +8,7 @@ use super::margins::{EDGE, INK, LEFT, RIGHT, TEXT, WIDTH};
 use crate::report::numbers;
 
 /// Rows in which the bar begins and ends, and the length of its ticks, pixels.
-const BAR: [i32; 2] = [12, 64];
+const BAR: [i32; 2] = [22, 74];
 const TICK: i32 = 11;
 
 /// Which colour stands for which value.

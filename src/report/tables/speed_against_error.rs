@@ -173,7 +173,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
             caption: format!(
                 "Error of the {} against the cost of a case. Filled and joined are the cases that no other one beats in \
                  both; others have a name where there is room, all are in the table. Errors that the probes cannot tell are \
-                 drawn at what they can. Each material has its own colour and \
+                 drawn at what they can. Each material has its own colour, outline and \
                  reference. Below, where there is no error: the reference itself, and other programs that compute the same \
                  atoms by the same bonds.",
                 quantity.words()
