@@ -1,5 +1,6 @@
 //! What a run says about its crack: pure functions of series, no input or output.
 
+pub mod columns;
 pub mod comparison;
 pub mod crack;
 pub mod damage;

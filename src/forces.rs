@@ -53,8 +53,8 @@ use kinds::SampledStrings;
 use pulp::Arch;
 use tile::Tile;
 
-/// Node positions or forces: x and y, one entry a node.
-pub type Planes = [Vec<f64>; 2];
+/// Node positions or forces: a plane an axis, one entry a node.
+pub type Planes<const D: usize = 2> = [Vec<f64>; D];
 
 /// Elements in one parallel task. It sets no order of summation.
 const CHUNK: usize = 128;

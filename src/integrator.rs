@@ -35,7 +35,7 @@ pub fn leap(kicks: u32, time: f64) -> Leap {
 ///
 /// Coupled masses are a block m ((1 - 3 c) I + c 1 1^T) a triangle, and its inverse takes c times the sum of the three
 /// forces off each before it divides by m (1 - 3 c).
-pub fn kick(state: &mut State, nodes: &[Range<usize>], time: f64) {
+pub fn kick<const D: usize>(state: &mut State<D>, nodes: &[Range<usize>], time: f64) {
     let kick = Leap {
         kicks: 1,
         kick: time,
@@ -45,7 +45,7 @@ pub fn kick(state: &mut State, nodes: &[Range<usize>], time: f64) {
 }
 
 /// Moves ranges of nodes by a leap.
-pub fn kick_and_drift(state: &mut State, nodes: &[Range<usize>], leap: Leap) {
+pub fn kick_and_drift<const D: usize>(state: &mut State<D>, nodes: &[Range<usize>], leap: Leap) {
     nodes.iter().for_each(|nodes| advance(state, nodes, leap, true));
 }
 
@@ -145,7 +145,7 @@ impl Ahead<'_> {
 }
 
 /// A range begins and ends with whole groups of triangles.
-fn advance(state: &mut State, nodes: &Range<usize>, leap: Leap, drifts: bool) {
+fn advance<const D: usize>(state: &mut State<D>, nodes: &Range<usize>, leap: Leap, drifts: bool) {
     let State {
         position,
         velocity,
@@ -162,8 +162,8 @@ fn advance(state: &mut State, nodes: &Range<usize>, leap: Leap, drifts: bool) {
         }
         Some(_) => coupled.map(|coupled| (coupled.nodes.clone(), coupled.share)).collect(),
     };
-    // Both axes at once, so that threads wait for each other only once.
-    let mut tasks = Vec::with_capacity(2 * parts.len());
+    // All axes at once, so that threads wait for each other only once.
+    let mut tasks = Vec::with_capacity(D * parts.len());
     for (axis, (position, velocity)) in position.iter_mut().zip(velocity).enumerate() {
         let [mut position, mut velocity] = [position, velocity].map(|plane| &mut plane[nodes.clone()]);
         for (part, share) in &parts {
@@ -209,14 +209,14 @@ fn dispatch_to<const N: usize>(corners: [Nodes; N], leap: Leap, drifts: bool, sh
 }
 
 /// The square of what the forces accelerate a node of a range by, coupled masses as if they were not, nm^2/ps^4: the largest.
-pub fn largest_squared_acceleration(state: &State, nodes: Range<usize>) -> f64 {
+pub fn largest_squared_acceleration<const D: usize>(state: &State<D>, nodes: Range<usize>) -> f64 {
+    let squared = |node: usize, axis: usize| {
+        let acceleration = state.force[axis][node] * state.mobility[axis][node];
+        acceleration * acceleration
+    };
     let largest = |from: usize| {
         let nodes = from..nodes.end.min(from + CHUNK);
-        let [x, y] = [0, 1].map(|axis| {
-            let [force, mobility] = [&state.force[axis][nodes.clone()], &state.mobility[axis][nodes.clone()]];
-            force.iter().zip(mobility).map(|(force, mobility)| force * mobility)
-        });
-        let squares = x.zip(y).map(|(x, y)| x * x + y * y);
+        let squares = nodes.map(|node| (0..D).map(|axis| squared(node, axis)).sum());
         squares.fold(
             0.0,
             |largest: f64, square| if square > largest { square } else { largest },

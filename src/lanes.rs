@@ -210,6 +210,12 @@ impl<S: Simd> Mask<S> {
         Self { value, ..self }
     }
 
+    #[inline(always)]
+    pub fn not(self) -> Self {
+        let value = self.simd.not_m64s(self.value);
+        Self { value, ..self }
+    }
+
     /// Whether it says yes in any lane.
     #[inline(always)]
     pub fn any(self) -> bool {
@@ -219,8 +225,7 @@ impl<S: Simd> Mask<S> {
     /// Whether it says yes in all lanes.
     #[inline(always)]
     pub fn every(self) -> bool {
-        let value = self.simd.not_m64s(self.value);
-        !Self { value, ..self }.any()
+        !self.not().any()
     }
 
     /// What it says in each lane, and no after them.

@@ -85,6 +85,11 @@ impl Interaction {
         with_law!(self, law => law.evaluate(squared_distance))
     }
 
+    /// Up to this squared distance phi'/r is that without a cutoff.
+    pub fn squared_untouched(&self) -> f64 {
+        with_law!(self, law => law.squared_untouched())
+    }
+
     /// Second derivative of the energy at this distance; zero beyond the cutoff.
     pub fn curvature(&self, distance: f64) -> f64 {
         with_law!(self, law => law.curvature(distance))

@@ -13,7 +13,7 @@ mod vectors;
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use crate::domain::Call;
+use crate::domain::{Call, Domain};
 use crate::forces::{ForceError, Forces, Planes};
 use crate::material::Material;
 use crate::state::State;
@@ -63,6 +63,51 @@ pub enum RelaxationError {
     Interrupted,
 }
 
+/// What is brought to rest in `D` dimensions.
+pub trait Elastic<const D: usize> {
+    fn domain(&self) -> &Domain;
+
+    fn domain_mut(&mut self) -> &mut Domain;
+
+    fn material(&self) -> &Material;
+
+    /// Forces on the nodes at their present positions.
+    fn compute(&mut self, state: &mut State<D>) -> Result<(), ForceError>;
+
+    /// A bound of the stiffness that each node answers with, eV/nm^2; zero where it has lost all its bonds.
+    fn stiffness_of_nodes(&mut self, state: &State<D>) -> Result<Vec<f64>, ForceError>;
+}
+
+impl Elastic<2> for Forces {
+    fn domain(&self) -> &Domain {
+        self.domain()
+    }
+
+    fn domain_mut(&mut self) -> &mut Domain {
+        self.domain_mut()
+    }
+
+    fn material(&self) -> &Material {
+        self.material()
+    }
+
+    fn compute(&mut self, state: &mut State) -> Result<(), ForceError> {
+        let State { position, force, .. } = state;
+        self.compute(position, force)
+    }
+
+    /// The stiffness of an element bounds that of each of its nodes.
+    fn stiffness_of_nodes(&mut self, state: &State) -> Result<Vec<f64>, ForceError> {
+        let bounds = self.stiffness_bounds(&state.position)?;
+        let mesh = self.mesh();
+        let mut of_nodes = vec![0.0; mesh.node_count()];
+        for (element, bound) in bounds.into_iter().enumerate() {
+            mesh.nodes_of(element).for_each(|node| of_nodes[node] = bound);
+        }
+        Ok(of_nodes)
+    }
+}
+
 /// Moves the free nodes of `state` to where their forces vanish; velocities play no part and end as zero there.
 /// Where the motion is prescribed (a mobility of zero), positions stay as they are.
 pub fn relax(forces: &mut Forces, state: &mut State, target: Target) -> Result<Rest, RelaxationError> {
@@ -70,9 +115,9 @@ pub fn relax(forces: &mut Forces, state: &mut State, target: Target) -> Result<R
 }
 
 /// The same, given up as soon as `stop` becomes true. `tell` hears about what is left of the residual, again and again.
-pub fn relax_unless(
-    forces: &mut Forces,
-    state: &mut State,
+pub fn relax_unless<const D: usize>(
+    forces: &mut impl Elastic<D>,
+    state: &mut State<D>,
     target: Target,
     stop: &AtomicBool,
     tell: &mut dyn FnMut(f64),
@@ -100,31 +145,31 @@ const NEWTON_FROM: f64 = 1e-6;
 const DAMPED_SHARE: f64 = 0.1;
 
 /// A specimen on its way to rest. Its forces always belong to its positions.
-struct Descent<'a> {
-    forces: &'a mut Forces,
-    state: &'a mut State,
+struct Descent<'a, const D: usize> {
+    forces: &'a mut dyn Elastic<D>,
+    state: &'a mut State<D>,
     target: Target,
     stop: &'a AtomicBool,
     tell: &'a mut dyn FnMut(f64),
     /// Inverse of every node's stiffness bound, nm^2/eV; zero where the motion is prescribed.
-    compliance: Planes,
+    compliance: Planes<D>,
     strength: f64,
     spacing: f64,
     evaluations: u64,
 }
 
-impl<'a> Descent<'a> {
+impl<'a, const D: usize> Descent<'a, D> {
     fn new(
-        forces: &'a mut Forces,
-        state: &'a mut State,
+        forces: &'a mut dyn Elastic<D>,
+        state: &'a mut State<D>,
         target: Target,
         stop: &'a AtomicBool,
         tell: &'a mut dyn FnMut(f64),
     ) -> Result<Self, RelaxationError> {
-        let bounds = forces.stiffness_bounds(&state.position)?;
+        let bounds = forces.stiffness_of_nodes(state)?;
         let [strength, spacing] = [bond_strength(forces.material()), forces.material().spacing];
         let mut descent = Self {
-            compliance: compliance(forces, &bounds, &state.mobility),
+            compliance: compliance(&bounds, &state.mobility),
             forces,
             state,
             target,
@@ -170,10 +215,10 @@ impl<'a> Descent<'a> {
             self.forces.domain_mut().call(Call::Stop);
         }
         self.evaluations += 1;
-        let State { position, force, .. } = &mut *self.state;
-        self.forces.compute(position, force)?;
+        self.forces.compute(self.state)?;
         // Every rank carries the whole specimen to rest.
-        force.iter_mut().for_each(|axis| self.forces.domain().share_nodes(axis));
+        let planes = self.state.force.iter_mut();
+        planes.for_each(|axis| self.forces.domain().share_nodes(axis));
         Ok(())
     }
 
@@ -182,7 +227,7 @@ impl<'a> Descent<'a> {
     }
 
     fn come_to_rest(&mut self) {
-        for axis in 0..2 {
+        for axis in 0..D {
             let free = self.state.velocity[axis].iter_mut().zip(&self.state.mobility[axis]);
             free.filter(|(_, mobility)| **mobility > 0.0)
                 .for_each(|(velocity, _)| *velocity = 0.0);
@@ -190,26 +235,15 @@ impl<'a> Descent<'a> {
     }
 }
 
-/// The stiffness of an element bounds that of each of its nodes; where an element lost all its bonds, the softest
-/// other one serves.
-fn compliance(forces: &Forces, bounds: &[f64], mobility: &Planes) -> Planes {
+/// Where a node has lost all its bonds, the softest other one serves.
+fn compliance<const D: usize>(bounds: &[f64], mobility: &Planes<D>) -> Planes<D> {
     let softest = bounds.iter().copied().filter(|&bound| bound > 0.0);
     let softest = softest.fold(f64::INFINITY, f64::min);
-    let mesh = forces.mesh();
-    let mut compliance = [vec![0.0; mesh.node_count()], vec![0.0; mesh.node_count()]];
-    for element in 0..mesh.elements.len() {
-        let bound = if bounds[element] > 0.0 {
-            bounds[element]
-        } else {
-            softest
-        };
-        for node in mesh.nodes_of(element) {
-            for axis in 0..2 {
-                if mobility[axis][node] > 0.0 {
-                    compliance[axis][node] = 1.0 / bound;
-                }
-            }
-        }
-    }
-    compliance
+    let of_node = |(&bound, &mobility): (&f64, &f64)| match mobility > 0.0 {
+        true => 1.0 / if bound > 0.0 { bound } else { softest },
+        false => 0.0,
+    };
+    mobility
+        .each_ref()
+        .map(|plane| bounds.iter().zip(plane).map(of_node).collect())
 }

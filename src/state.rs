@@ -3,6 +3,7 @@
 mod leap;
 mod strip;
 
+use std::array;
 use std::ops::Range;
 
 use crate::lanes;
@@ -11,19 +12,19 @@ use crate::mesh::Mesh;
 pub use leap::Leap;
 pub use strip::Strip;
 
-/// Positions, velocities, forces and masses of the nodes, a plane (x, y) each. Units nm, ps, eV.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct State {
-    pub position: [Vec<f64>; 2],
-    pub velocity: [Vec<f64>; 2],
-    pub force: [Vec<f64>; 2],
+/// Positions, velocities, forces and masses of the nodes in `D` dimensions, a plane an axis. Units nm, ps, eV.
+#[derive(Clone, Debug, PartialEq)]
+pub struct State<const D: usize = 2> {
+    pub position: [Vec<f64>; D],
+    pub velocity: [Vec<f64>; D],
+    pub force: [Vec<f64>; D],
     /// Lumped mass, the sum of a row of the mass matrix, eV ps^2/nm^2.
     pub mass: Vec<f64>,
     /// The triangles whose masses are coupled, ascending; empty where all masses are lumped.
     pub coupled: Vec<Coupled>,
     /// What a force is multiplied by to give the acceleration: the inverse of the mass, and zero where the motion is
     /// prescribed. With coupled masses the mean force of the triangle acts apart: see [`crate::integrator::kick`].
-    pub mobility: [Vec<f64>; 2],
+    pub mobility: [Vec<f64>; D],
 }
 
 /// Triangles side by side whose mass matrix is not lumped: the block of each is mass ((1 - 3 c) I + c 1 1^T), c the share.
@@ -52,59 +53,25 @@ impl Coupled {
     }
 }
 
-impl State {
+impl<const D: usize> State<D> {
     /// Nodes at rest at these positions, free to move, with lumped masses.
-    pub fn at_rest(position: [Vec<f64>; 2], mass: Vec<f64>) -> Self {
+    pub fn at_rest(position: [Vec<f64>; D], mass: Vec<f64>) -> Self {
         let nodes = mass.len();
         let free: Vec<f64> = mass.iter().map(|mass| 1.0 / mass).collect();
-        let zeros = || [vec![0.0; nodes], vec![0.0; nodes]];
+        let zeros = || array::from_fn(|_| vec![0.0; nodes]);
         Self {
             position,
             velocity: zeros(),
             force: zeros(),
             mass,
             coupled: Vec::new(),
-            mobility: [free.clone(), free],
-        }
-    }
-
-    /// Gives the triangles of a mesh this share of the consistent mass matrix; the rest of it stays lumped. All nodes
-    /// become free.
-    pub fn couple_masses(&mut self, mesh: &Mesh, consistent: f64) {
-        let groups = mesh.groups.all().iter().zip(mesh.mass_couplings());
-        let coupled = groups.map(|(group, coupling)| Coupled {
-            nodes: group.nodes(),
-            share: consistent * coupling,
-        });
-        self.coupled = coupled.collect();
-        for Coupled { nodes, share } in &self.coupled {
-            for node in nodes.clone() {
-                let mobility = 1.0 / (self.mass[node] * (1.0 - 3.0 * share));
-                self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
-            }
+            mobility: array::from_fn(|_| free.clone()),
         }
     }
 
     /// The mass that couples a node to another of its triangle, over the lumped mass of one; zero where it is lumped.
     pub fn coupling_of(&self, node: usize) -> f64 {
         coupled_at(&self.coupled, node).map_or(0.0, |coupled| coupled.share)
-    }
-
-    /// How the nodes of each group of a mesh answer to forces.
-    pub fn inertias(&self, mesh: &Mesh) -> Vec<Inertia> {
-        let of_group = |nodes: Range<usize>| {
-            let same = |plane: &Vec<f64>| {
-                plane[nodes.clone()]
-                    .iter()
-                    .all(|mobility| *mobility == plane[nodes.start])
-            };
-            let is_same = self.mobility.iter().all(same);
-            Inertia {
-                mobility: is_same.then(|| self.mobility.each_ref().map(|plane| plane[nodes.start])),
-                share: self.coupling_of(nodes.start),
-            }
-        };
-        mesh.groups.all().iter().map(|group| of_group(group.nodes())).collect()
     }
 
     pub fn nodes(&self) -> usize {
@@ -133,7 +100,43 @@ impl State {
                 speed * (speed + coupled.share * (sum - 3.0 * speed))
             }),
         };
-        0.5 * self.mass[node] * (squared[0] + squared[1])
+        0.5 * self.mass[node] * squared.into_iter().sum::<f64>()
+    }
+}
+
+impl State {
+    /// Gives the triangles of a mesh this share of the consistent mass matrix; the rest of it stays lumped. All nodes
+    /// become free.
+    pub fn couple_masses(&mut self, mesh: &Mesh, consistent: f64) {
+        let groups = mesh.groups.all().iter().zip(mesh.mass_couplings());
+        let coupled = groups.map(|(group, coupling)| Coupled {
+            nodes: group.nodes(),
+            share: consistent * coupling,
+        });
+        self.coupled = coupled.collect();
+        for Coupled { nodes, share } in &self.coupled {
+            for node in nodes.clone() {
+                let mobility = 1.0 / (self.mass[node] * (1.0 - 3.0 * share));
+                self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
+            }
+        }
+    }
+
+    /// How the nodes of each group of a mesh answer to forces.
+    pub fn inertias(&self, mesh: &Mesh) -> Vec<Inertia> {
+        let of_group = |nodes: Range<usize>| {
+            let same = |plane: &Vec<f64>| {
+                plane[nodes.clone()]
+                    .iter()
+                    .all(|mobility| *mobility == plane[nodes.start])
+            };
+            let is_same = self.mobility.iter().all(same);
+            Inertia {
+                mobility: is_same.then(|| self.mobility.each_ref().map(|plane| plane[nodes.start])),
+                share: self.coupling_of(nodes.start),
+            }
+        };
+        mesh.groups.all().iter().map(|group| of_group(group.nodes())).collect()
     }
 }
 

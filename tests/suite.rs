@@ -14,6 +14,7 @@ mod suite {
     mod relaxation;
     mod report;
     mod small_model;
+    mod solids;
     mod solver;
     mod specimens;
     mod store;

@@ -7,6 +7,7 @@
 //! Interfaces are used where the potential reaches nearest neighbours alone. One is intact as long as all of its bonds are
 //! within the cutoff and no second neighbours across it are; then it opens for good.
 
+mod certified;
 mod drift;
 mod edges;
 mod faces;
@@ -17,6 +18,7 @@ mod measure;
 mod pairs;
 mod points;
 pub mod referee;
+mod rule;
 mod sums;
 mod sweep;
 #[cfg(test)]
@@ -26,15 +28,18 @@ mod vector;
 pub use measure::Measure;
 
 use std::collections::HashMap;
+use std::sync::OnceLock;
 use std::time::Duration;
 
 use pulp::Arch;
 
+use super::Summation;
 use crate::domain::{Domain, Halo, Ranks};
 use crate::material::Material;
 use crate::mesh::solid::Solid;
 use crate::mesh::solid::element::Shape;
 use crate::mesh::solid::interfaces::{Interfaces, SECOND_NEIGHBOURS};
+use certified::Few;
 use inside::Class;
 use pairs::Pairs;
 use sweep::Tile;
@@ -69,12 +74,16 @@ pub struct Forces {
     material: Material,
     interfaces: Interfaces,
     classes: HashMap<(Shape, i32), Vec<Class>>,
+    /// Places that stand for all bonds of patches between parts of blocks of a size.
+    few: HashMap<i32, Few>,
     /// One for each interface that is intact, zero for others.
     intact: Vec<f64>,
     tiles: Vec<Tile>,
     /// `None` before the first search and after an interface has opened.
     pairs: Option<Pairs>,
     farthest: f64,
+    /// The squared highest frequency of the crystal at rest, 1/ps^2, once it has been asked for.
+    frequency_at_rest: OnceLock<f64>,
     arch: Arch,
     searches: u64,
     search_time: Duration,
@@ -84,11 +93,11 @@ pub struct Forces {
 
 impl Forces {
     pub fn new(mesh: Solid, material: Material) -> Self {
-        Self::shared(Ranks::alone(), mesh, material)
+        Self::shared(Ranks::alone(), mesh, material, Summation::Exact)
     }
 
     /// The part of this rank in the forces that all ranks compute together.
-    pub fn shared(ranks: Ranks, mesh: Solid, material: Material) -> Self {
+    pub fn shared(ranks: Ranks, mesh: Solid, material: Material, summation: Summation) -> Self {
         let reach = material.interaction.cutoff() / material.spacing;
         let interfaces = Interfaces::new(&mesh, reach);
         let mut classes = HashMap::new();
@@ -96,6 +105,12 @@ impl Forces {
             let of_kind = || inside::classes(group.shape, group.size, reach + LISTED_BEYOND_CUTOFF);
             classes.entry((group.shape, group.size)).or_insert_with(of_kind);
         }
+        let mut sizes: Vec<i32> = classes.keys().map(|&(_, size)| size).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        let few = sizes
+            .into_iter()
+            .filter_map(|size| Some((size, Few::new(&material, summation, size - 2)?)));
         let intact = if reach > SECOND_NEIGHBOURS { 0.0 } else { 1.0 };
         let places = mesh.node_positions();
         let largest = places
@@ -115,8 +130,10 @@ impl Forces {
             bordering,
             material,
             interfaces,
+            few: few.collect(),
             classes,
             pairs: None,
+            frequency_at_rest: OnceLock::new(),
             arch: Arch::new(),
             searches: 0,
             search_time: Duration::ZERO,

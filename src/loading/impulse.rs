@@ -1,6 +1,5 @@
 use std::ops::Range;
 
-use super::Stretching;
 use crate::domain::Ranks;
 use crate::state::State;
 
@@ -15,13 +14,13 @@ pub struct Impulse {
 }
 
 impl Impulse {
-    /// `nodes` are those that this rank moves.
-    pub fn new(loading: &Stretching, nodes: &[Range<usize>]) -> Self {
+    /// Of held nodes; `nodes` are those that this rank moves.
+    pub fn new(held: impl Iterator<Item = u32> + Clone, nodes: &[Range<usize>]) -> Self {
         let is_mine = |node: u32| nodes.iter().any(|range| range.contains(&(node as usize)));
-        let places = (0..).zip(loading.held());
+        let places = (0..).zip(held.clone());
         Self {
             mine: places.filter(|&(_, node)| is_mine(node)).collect(),
-            of_held: vec![0.0; loading.held().count()],
+            of_held: vec![0.0; held.count()],
         }
     }
 

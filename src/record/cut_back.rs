@@ -3,14 +3,15 @@
 use std::path::Path;
 
 use super::pieces::{Pieces, SegmentPiece, remove};
+use super::rows::Rows;
 use super::segments::{read_segment, write_segment};
-use super::{FIELDS_FILE, RecordError, SERIES_FILE, read_fields, read_series};
+use super::{FIELDS_FILE, RecordError, SERIES_FILE, read_fields, series};
 
 /// Keeps what was recorded up to `step` and removes what came after it; `None` removes everything recorded.
 ///
 /// What a killed run was just writing goes in both cases. The checkpoint itself is not touched. A series or a
 /// picture file that was published with later steps cannot be cut: that is a [`RecordError::Gap`].
-pub fn cut_back(dir: &Path, step: Option<u64>) -> Result<(), RecordError> {
+pub fn cut_back<R: Rows>(dir: &Path, step: Option<u64>) -> Result<(), RecordError> {
     let pieces = Pieces::list(dir)?;
     remove(dir, &pieces.leftovers)?;
     let Some(step) = step else {
@@ -38,20 +39,19 @@ pub fn cut_back(dir: &Path, step: Option<u64>) -> Result<(), RecordError> {
             .map(|piece| &piece.path),
     )?;
     for piece in pieces.segments.iter().filter(|piece| piece.last > step) {
-        shorten(dir, piece, step)?;
+        shorten::<R>(dir, piece, step)?;
     }
     Ok(())
 }
 
 /// Step of the last row of the published series; `None` if none is published.
 pub(super) fn last_published_probe(dir: &Path) -> Result<Option<u64>, RecordError> {
-    let published = absent_is_none(read_series(&dir.join(SERIES_FILE)))?;
-    Ok(published.and_then(|(_, series)| series.probes.last().map(|probe| probe.step)))
+    Ok(absent_is_none(series::last_step(&dir.join(SERIES_FILE)))?.flatten())
 }
 
 /// Step of the last published frame; `None` if none is published.
 pub(super) fn last_published_frame(dir: &Path) -> Result<Option<u64>, RecordError> {
-    let published = absent_is_none(read_fields(&dir.join(FIELDS_FILE)))?;
+    let published = absent_is_none(read_fields::<[f64; 2]>(&dir.join(FIELDS_FILE)))?;
     Ok(published.and_then(|(_, frames)| frames.steps().last().copied()))
 }
 
@@ -63,16 +63,11 @@ fn absent_is_none<T>(result: Result<T, RecordError>) -> Result<Option<T>, Record
 }
 
 /// Replaces a segment by its rows up to `step`. The shorter one is in place before the longer one goes.
-fn shorten(dir: &Path, piece: &SegmentPiece, step: u64) -> Result<(), RecordError> {
+fn shorten<R: Rows>(dir: &Path, piece: &SegmentPiece, step: u64) -> Result<(), RecordError> {
     if piece.first <= step {
-        let (first_probe, mut part) = read_segment(&piece.path)?;
-        let kept = part.probes.partition_point(|probe| probe.step <= step);
-        part.probes.truncate(kept);
-        part.profiles.truncate(kept * part.profile_x.len());
-        part.tractions.truncate(kept * part.profile_x.len());
-        part.gauges.truncate(kept * part.gauge_places.len());
-        part.bonds
-            .retain(|bond| u64::from(bond.probe) < first_probe + kept as u64);
+        let (first_probe, mut part) = read_segment::<R>(&piece.path)?;
+        let kept = part.steps().partition_point(|&row| row <= step);
+        part.truncate(kept, first_probe);
         write_segment(dir, first_probe, &part)?;
     }
     remove(dir, [&piece.path])

@@ -8,8 +8,8 @@ use std::path::Path;
 use hdf5::Group;
 
 use super::arrays::new_group;
-use super::field::{CELL_FIELDS, Field, POINT_FIELDS};
-use super::frames::{FieldMesh, Frame};
+use super::field::{Field, cell_fields, point_fields};
+use super::frames::{FieldMesh, Frame, Vector};
 use super::mesh::{check_mesh, put_mesh};
 use super::packed::Packed;
 use super::pieces::FramePiece;
@@ -19,7 +19,12 @@ use super::steps::Steps;
 use super::{RecordError, file};
 
 /// Writes mesh and frames into a new file at `path`; holds one frame at a time.
-pub(super) fn assemble(path: &Path, case_id: &str, mesh: &FieldMesh, frames: &[FramePiece]) -> Result<(), RecordError> {
+pub(super) fn assemble<V: Vector>(
+    path: &Path,
+    case_id: &str,
+    mesh: &FieldMesh<V>,
+    frames: &[FramePiece],
+) -> Result<(), RecordError> {
     let cannot_write = |cause: hdf5::Error| RecordError::cannot_write(path, cause);
     check_mesh(mesh).map_err(|what| RecordError::gap(path, what))?;
     let cells = mesh.element_size.len();
@@ -31,41 +36,40 @@ pub(super) fn assemble(path: &Path, case_id: &str, mesh: &FieldMesh, frames: &[F
     let mut fields = Fields::create(&grid, mesh, frames.len()).map_err(cannot_write)?;
     let mut steps = Steps::default();
     for piece in frames {
-        let frame = read_frame(&piece.path)?;
+        let frame: Frame<V> = read_frame(&piece.path)?;
         let [nodes, velocities] = [frame.displacement.len(), frame.velocity.len()];
         if [nodes, velocities, frame.stress.len()] != [mesh.points.len(), mesh.points.len(), cells] {
             let what = "the frame has other nodes or cells than the mesh";
             return Err(RecordError::gap(&piece.path, what));
         }
         fields.append(&frame).map_err(cannot_write)?;
-        steps.push(&frame);
+        steps.push(frame.step, frame.time, frame.strain);
     }
     fields.finish().map_err(cannot_write)?;
-    steps.put(&grid, mesh.points.len(), cells).map_err(cannot_write)?;
+    steps.put::<V>(&grid, mesh.points.len(), cells).map_err(cannot_write)?;
     file::finish(file).map_err(cannot_write)
 }
 
 /// The datasets that hold a field for all steps, one after the other.
-struct Fields(Vec<(&'static Field, Packed<f32>)>);
+struct Fields<V: Vector>(Vec<(Field<V>, Packed<f32>)>);
 
-impl Fields {
-    fn create(grid: &Group, mesh: &FieldMesh, frames: usize) -> hdf5::Result<Fields> {
-        let points = (
-            new_group(grid, "PointData")?,
-            mesh.points.len(),
-            POINT_FIELDS.as_slice(),
-        );
-        let cells = (grid.group("CellData")?, mesh.element_size.len(), CELL_FIELDS.as_slice());
+impl<V: Vector> Fields<V> {
+    fn create(grid: &Group, mesh: &FieldMesh<V>, frames: usize) -> hdf5::Result<Self> {
+        let points = new_group(grid, "PointData")?;
+        let cells = grid.group("CellData")?;
         let mut datasets = Vec::new();
-        for (group, rows, fields) in [points, cells] {
-            for field in fields {
-                datasets.push((field, field.create(&group, rows * frames)?));
-            }
+        for field in point_fields() {
+            let packed = field.create(&points, mesh.points.len() * frames)?;
+            datasets.push((field, packed));
+        }
+        for field in cell_fields() {
+            let packed = field.create(&cells, mesh.element_size.len() * frames)?;
+            datasets.push((field, packed));
         }
         Ok(Fields(datasets))
     }
 
-    fn append(&mut self, frame: &Frame) -> hdf5::Result<()> {
+    fn append(&mut self, frame: &Frame<V>) -> hdf5::Result<()> {
         let mut fields = self.0.iter_mut();
         fields.try_for_each(|(field, packed)| packed.append(&(field.of)(frame)))
     }

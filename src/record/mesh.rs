@@ -4,10 +4,11 @@ use hdf5::Group;
 use hdf5::types::FixedAscii;
 
 use super::arrays::{Packing, get, get_rows, new_group, put};
-use super::frames::FieldMesh;
+use super::field::padded;
+use super::frames::{FieldMesh, Vector};
 
 /// Writes the mesh into the empty group of a grid.
-pub(super) fn put_mesh(grid: &Group, mesh: &FieldMesh) -> hdf5::Result<()> {
+pub(super) fn put_mesh<V: Vector>(grid: &Group, mesh: &FieldMesh<V>) -> hdf5::Result<()> {
     grid.new_attr_builder().with_data(&[2_i64, 0]).create("Version")?;
     let kind = FixedAscii::<16>::from_ascii("UnstructuredGrid").map_err(|cause| cause.to_string())?;
     grid.new_attr::<FixedAscii<16>>().create("Type")?.write_scalar(&kind)?;
@@ -17,7 +18,7 @@ pub(super) fn put_mesh(grid: &Group, mesh: &FieldMesh) -> hdf5::Result<()> {
         .windows(2)
         .map(|ends| cell_type(ends[1] - ends[0]))
         .collect::<Result<Vec<u8>, _>>()?;
-    let points: Vec<f64> = mesh.points.iter().flat_map(|[x, y]| [*x, *y, 0.0]).collect();
+    let points: Vec<f64> = mesh.points.iter().flat_map(|&point| padded(point)).collect();
     let connectivity: Vec<i64> = mesh.connectivity.iter().map(|node| i64::from(*node)).collect();
     let offsets: Vec<i64> = mesh.offsets.iter().map(|offset| i64::from(*offset)).collect();
     for (name, count) in [
@@ -58,10 +59,10 @@ pub(super) fn put_mesh(grid: &Group, mesh: &FieldMesh) -> hdf5::Result<()> {
 }
 
 /// Reads what [`put_mesh`] wrote.
-pub(super) fn get_mesh(grid: &Group) -> hdf5::Result<FieldMesh> {
+pub(super) fn get_mesh<V: Vector>(grid: &Group) -> hdf5::Result<FieldMesh<V>> {
     let points: Vec<[f64; 3]> = get_rows(grid, "Points")?;
     let mesh = FieldMesh {
-        points: points.iter().map(|[x, y, _]| [*x, *y]).collect(),
+        points: points.iter().map(|point| V::of(point)).collect(),
         connectivity: get(grid, "Connectivity")?,
         offsets: get(grid, "Offsets")?,
         element_size: get(grid, "CellData/element_size")?,
@@ -71,7 +72,7 @@ pub(super) fn get_mesh(grid: &Group) -> hdf5::Result<FieldMesh> {
 }
 
 /// What is wrong with a mesh, if anything: every cell has its nodes, and they exist.
-pub(super) fn check_mesh(mesh: &FieldMesh) -> Result<(), String> {
+pub(super) fn check_mesh<V>(mesh: &FieldMesh<V>) -> Result<(), String> {
     let FieldMesh {
         points,
         connectivity,
@@ -93,11 +94,15 @@ pub(super) fn check_mesh(mesh: &FieldMesh) -> Result<(), String> {
 fn cell_type(nodes: u32) -> Result<u8, String> {
     const VTK_VERTEX: u8 = 1;
     const VTK_TRIANGLE: u8 = 5;
+    const VTK_TETRA: u8 = 10;
+    const VTK_PYRAMID: u8 = 14;
     match nodes {
         1 => Ok(VTK_VERTEX),
         3 => Ok(VTK_TRIANGLE),
+        4 => Ok(VTK_TETRA),
+        5 => Ok(VTK_PYRAMID),
         _ => Err(format!(
-            "a cell of the mesh has {nodes} nodes, neither an atom's 1 nor a triangle's 3"
+            "a cell of the mesh has {nodes} nodes, neither an atom's 1, a triangle's 3, a tetrahedron's 4 nor a pyramid's 5"
         )),
     }
 }

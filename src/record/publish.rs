@@ -6,15 +6,15 @@
 use std::path::{Path, PathBuf};
 
 use super::cut_back::{last_published_frame, last_published_probe};
-use super::frames::FieldMesh;
+use super::frames::{FieldMesh, Vector};
 use super::pieces::{Pieces, remove};
+use super::rows::Described;
 use super::segments::read_segments;
 use super::series::write_series;
 use super::{FIELDS_FILE, RecordError, SERIES_FILE, aside, fields};
-use crate::analysis::series::Setting;
 
 /// Makes [`SERIES_FILE`] of the segments in `dir`, then removes them.
-pub fn publish_series(dir: &Path, case_id: &str, setting: &Setting) -> Result<(), RecordError> {
+pub fn publish_series<S: Described>(dir: &Path, case_id: &str, setting: &S) -> Result<(), RecordError> {
     let segments = Pieces::list(dir)?.segments;
     let path = dir.join(SERIES_FILE);
     if is_there(&path)? {
@@ -32,7 +32,7 @@ pub fn publish_series(dir: &Path, case_id: &str, setting: &Setting) -> Result<()
 /// Makes [`FIELDS_FILE`] of the frames in `dir`, one frame in memory at a time, then removes them.
 ///
 /// A run without frames gets no such file.
-pub fn publish_fields(dir: &Path, case_id: &str, mesh: &FieldMesh) -> Result<(), RecordError> {
+pub fn publish_fields<V: Vector>(dir: &Path, case_id: &str, mesh: &FieldMesh<V>) -> Result<(), RecordError> {
     let frames = Pieces::list(dir)?.frames;
     let path = dir.join(FIELDS_FILE);
     if is_there(&path)? {

@@ -1,5 +1,6 @@
 //! The published pictures, read back one by one.
 
+use std::marker::PhantomData;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -7,13 +8,14 @@ use hdf5::Group;
 use ndarray::s;
 
 use super::arrays::{get, get_column};
-use super::frames::{FieldMesh, Frame};
+use super::field::from_vtk;
+use super::frames::{FieldMesh, Frame, Vector};
 use super::mesh::get_mesh;
 use super::{RecordError, file};
 use crate::units::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
 
 /// Mesh and frames of a published file. The mesh is read to the bit, the frames to single precision.
-pub fn read_fields(path: &Path) -> Result<(FieldMesh, FrameReader), RecordError> {
+pub fn read_fields<V: Vector>(path: &Path) -> Result<(FieldMesh<V>, FrameReader<V>), RecordError> {
     std::fs::metadata(path).map_err(|cause| RecordError::reading(path, &cause))?;
     let read = || {
         let grid = file::open(path)?.group("VTKHDF")?;
@@ -25,7 +27,7 @@ pub fn read_fields(path: &Path) -> Result<(FieldMesh, FrameReader), RecordError>
 }
 
 /// Frames by index, each read when it is asked for.
-pub struct FrameReader {
+pub struct FrameReader<V = [f64; 2]> {
     path: PathBuf,
     grid: Group,
     points: usize,
@@ -33,9 +35,10 @@ pub struct FrameReader {
     times: Vec<f64>,
     steps: Vec<u64>,
     strains: Vec<f64>,
+    space: PhantomData<fn() -> V>,
 }
 
-impl FrameReader {
+impl<V: Vector> FrameReader<V> {
     /// Times of the frames, ps.
     pub fn times(&self) -> &[f64] {
         &self.times
@@ -51,7 +54,7 @@ impl FrameReader {
     }
 
     /// The frame at `index`, counted from 0, in internal units.
-    pub fn frame(&self, index: usize) -> Result<Frame, RecordError> {
+    pub fn frame(&self, index: usize) -> Result<Frame<V>, RecordError> {
         if index >= self.times.len() {
             let what = format!("frame {index} was asked for and it has {}", self.times.len());
             return Err(RecordError::damaged(&self.path, what));
@@ -60,9 +63,9 @@ impl FrameReader {
             .map_err(|cause| RecordError::damaged(&self.path, cause))
     }
 
-    fn new(path: &Path, grid: Group, mesh: &FieldMesh) -> hdf5::Result<FrameReader> {
+    fn new(path: &Path, grid: Group, mesh: &FieldMesh<V>) -> hdf5::Result<Self> {
         let times: Vec<f64> = get(&grid, "Steps/Values")?;
-        Ok(FrameReader {
+        Ok(Self {
             path: path.to_owned(),
             points: mesh.points.len(),
             cells: mesh.element_size.len(),
@@ -70,12 +73,13 @@ impl FrameReader {
             strains: get_column(&grid, "FieldData/strain", times.len())?,
             times,
             grid,
+            space: PhantomData,
         })
     }
 
-    fn get_frame(&self, index: usize) -> hdf5::Result<Frame> {
+    fn get_frame(&self, index: usize) -> hdf5::Result<Frame<V>> {
         let stretch = |rows: usize| index * rows..(index + 1) * rows;
-        let scaled = |rows: Vec<[f64; 3]>, scale: f64| rows.iter().map(|[x, y, _]| [x / scale, y / scale]).collect();
+        let scaled = |rows: Vec<[f64; 3]>, scale: f64| rows.iter().map(|row| V::of(&row.map(|x| x / scale))).collect();
         let stress: Vec<[f64; 6]> = self.slice("CellData/virial_stress", stretch(self.cells))?;
         let damage = self
             .grid
@@ -92,7 +96,7 @@ impl FrameReader {
             ),
             stress: stress
                 .iter()
-                .map(|[xx, yy, _, xy, ..]| [*xx, *yy, *xy].map(|s| s / EV_PER_NM3_IN_GPA))
+                .map(|tensor| from_vtk(tensor.map(|component| component / EV_PER_NM3_IN_GPA)))
                 .collect(),
             damage: damage.iter().map(|damage| f64::from(*damage)).collect(),
         })

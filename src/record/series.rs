@@ -11,27 +11,38 @@ use super::RecordError;
 use super::arrays::{Packing, get, get_column, get_rows, new_group, put};
 use super::bonds::{get_bonds, put_bonds};
 use super::provenance::put_provenance;
+use super::rows::{Described, Rows};
 use super::sealed::{self, Seal};
 use super::setting::{get_setting, put_setting};
 use crate::analysis::series::{Probe, Series, Setting};
 
 /// The series of a finished run and what is needed to understand it.
-pub fn read_series(path: &Path) -> Result<(Setting, Series), RecordError> {
+pub fn read_series<S: Described>(path: &Path) -> Result<(S, S::Rows), RecordError> {
     let file = sealed::open(path, SEAL)?;
     let damaged = |cause| RecordError::damaged(path, cause);
-    Ok((
-        get_setting(&file).map_err(damaged)?,
-        get_series(&file).map_err(damaged)?,
-    ))
+    Ok((S::get(&file).map_err(damaged)?, S::Rows::get(&file).map_err(damaged)?))
 }
 
 /// Counterpart of [`read_series`].
-pub(super) fn write_series(path: &Path, case_id: &str, setting: &Setting, series: &Series) -> Result<(), RecordError> {
+pub(super) fn write_series<S: Described>(
+    path: &Path,
+    case_id: &str,
+    setting: &S,
+    series: &S::Rows,
+) -> Result<(), RecordError> {
     sealed::write(path, SEAL, |file| {
         put_provenance(file, case_id)?;
-        put_setting(file, setting)?;
-        put_series(file, series)
+        setting.put(file)?;
+        series.put(file)
     })
+}
+
+/// The step of the last row of a finished run; `None` where there is no row.
+pub(super) fn last_step(path: &Path) -> Result<Option<u64>, RecordError> {
+    let file = sealed::open(path, SEAL)?;
+    let steps: hdf5::Result<Vec<u64>> = file.group("probes").and_then(|probes| get(&probes, "step"));
+    let steps = steps.map_err(|cause| RecordError::damaged(path, cause))?;
+    Ok(steps.last().copied())
 }
 
 const SEAL: Seal = Seal {
@@ -39,6 +50,63 @@ const SEAL: Seal = Seal {
     format: 1,
     case_id: "",
 };
+
+impl Described for Setting {
+    type Rows = Series;
+
+    fn put(&self, group: &Group) -> hdf5::Result<()> {
+        put_setting(group, self)
+    }
+
+    fn get(group: &Group) -> hdf5::Result<Self> {
+        get_setting(group)
+    }
+}
+
+impl Rows for Series {
+    fn put(&self, group: &Group) -> hdf5::Result<()> {
+        put_series(group, self)
+    }
+
+    fn get(group: &Group) -> hdf5::Result<Self> {
+        get_series(group)
+    }
+
+    fn steps(&self) -> Vec<u64> {
+        self.probes.iter().map(|probe| probe.step).collect()
+    }
+
+    fn append(&mut self, mut part: Self) -> Result<(), String> {
+        if !self.probes.is_empty() && part.profile_x != self.profile_x {
+            return Err("the bins of its profiles are not those of the segments before it".to_owned());
+        }
+        if !self.probes.is_empty() && part.gauge_places != self.gauge_places {
+            return Err("its wave gauges do not stand where those of the segments before it do".to_owned());
+        }
+        self.profile_x = part.profile_x;
+        self.gauge_places = part.gauge_places;
+        append_all(&mut self.probes, &mut part.probes);
+        append_all(&mut self.profiles, &mut part.profiles);
+        append_all(&mut self.tractions, &mut part.tractions);
+        append_all(&mut self.gauges, &mut part.gauges);
+        append_all(&mut self.bonds, &mut part.bonds);
+        Ok(())
+    }
+
+    fn truncate(&mut self, rows: usize, first: u64) {
+        self.probes.truncate(rows);
+        self.profiles.truncate(rows * self.profile_x.len());
+        self.tractions.truncate(rows * self.profile_x.len());
+        self.gauges.truncate(rows * self.gauge_places.len());
+        self.bonds.retain(|bond| u64::from(bond.probe) < first + rows as u64);
+    }
+}
+
+/// With no more memory than the rows need: the profiles of a long run are large.
+fn append_all<T>(rows: &mut Vec<T>, more: &mut Vec<T>) {
+    rows.reserve_exact(more.len());
+    rows.append(more);
+}
 
 /// Name, unit and place of a column.
 type Column = (&'static str, &'static str, fn(&mut Probe) -> &mut f64);
@@ -64,7 +132,7 @@ const LATER_COLUMNS: [Column; 3] = [
     ("j_integral_outer", "eV/nm", |probe| &mut probe.j_integral[2]),
 ];
 
-pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
+fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
     let Series {
         probes,
         profile_x,
@@ -118,7 +186,7 @@ pub(super) fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {
     put_bonds(&new_group(parent, "bonds")?, bonds)
 }
 
-pub(super) fn get_series(parent: &Group) -> hdf5::Result<Series> {
+fn get_series(parent: &Group) -> hdf5::Result<Series> {
     let profiles = parent.group("profiles")?;
     let mut series = Series {
         probes: get_probes(&parent.group("probes")?)?,

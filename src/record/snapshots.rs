@@ -6,39 +6,39 @@ use std::path::Path;
 use hdf5::Group;
 
 use super::RecordError;
-use super::arrays::{Packing, get_column, get_rows, get_scalar, put, put_scalar};
-use super::frames::Frame;
+use super::arrays::{Packing, get, get_column, get_scalar, put, put_scalar};
+use super::frames::{Frame, Row, Vector};
 use super::pieces::frame_path;
 use super::sealed::{self, Seal};
 
 /// What a picture is made of, field by field, so that no more than one of them need be in memory.
-pub trait Picture {
+pub trait Picture<V: Vector = [f64; 2]> {
     /// Step, time (ps) and nominal strain.
     fn moment(&self) -> (u64, f64, f64);
     /// A node: displacement (nm).
-    fn displacement(&self) -> Cow<'_, [[f64; 2]]>;
+    fn displacement(&self) -> Cow<'_, [V]>;
     /// A node: velocity (nm/ps).
-    fn velocity(&self) -> Cow<'_, [[f64; 2]]>;
-    /// A cell: virial stress xx, yy, xy, eV/nm^3.
-    fn stress(&self) -> Cow<'_, [[f64; 3]]>;
-    /// A cell: share of the reference bonds of its sites that are broken, 0 to 1.
+    fn velocity(&self) -> Cow<'_, [V]>;
+    /// A cell: virial stress, eV/nm^3.
+    fn stress(&self) -> Cow<'_, [V::Stress]>;
+    /// A cell: share of what could break that is broken, 0 to 1.
     fn damage(&self) -> Cow<'_, [f64]>;
 }
 
-impl Picture for Frame {
+impl<V: Vector> Picture<V> for Frame<V> {
     fn moment(&self) -> (u64, f64, f64) {
         (self.step, self.time, self.strain)
     }
 
-    fn displacement(&self) -> Cow<'_, [[f64; 2]]> {
+    fn displacement(&self) -> Cow<'_, [V]> {
         Cow::Borrowed(&self.displacement)
     }
 
-    fn velocity(&self) -> Cow<'_, [[f64; 2]]> {
+    fn velocity(&self) -> Cow<'_, [V]> {
         Cow::Borrowed(&self.velocity)
     }
 
-    fn stress(&self) -> Cow<'_, [[f64; 3]]> {
+    fn stress(&self) -> Cow<'_, [V::Stress]> {
         Cow::Borrowed(&self.stress)
     }
 
@@ -48,12 +48,12 @@ impl Picture for Frame {
 }
 
 /// Writes one picture of the run.
-pub fn write_frame(dir: &Path, picture: &impl Picture) -> Result<(), RecordError> {
+pub fn write_frame<V: Vector>(dir: &Path, picture: &impl Picture<V>) -> Result<(), RecordError> {
     let (step, ..) = picture.moment();
     sealed::write(&frame_path(dir, step), FRAME, |group| put_picture(group, picture))
 }
 
-pub(super) fn read_frame(path: &Path) -> Result<Frame, RecordError> {
+pub(super) fn read_frame<V: Vector>(path: &Path) -> Result<Frame<V>, RecordError> {
     let file = sealed::open(path, FRAME)?;
     get_frame(&file).map_err(|cause| RecordError::damaged(path, cause))
 }
@@ -64,7 +64,7 @@ const FRAME: Seal = Seal {
     case_id: "",
 };
 
-fn put_picture(group: &Group, picture: &impl Picture) -> hdf5::Result<()> {
+fn put_picture<V: Vector>(group: &Group, picture: &impl Picture<V>) -> hdf5::Result<()> {
     let (step, time, strain) = picture.moment();
     put_scalar(group, "step", "1", step)?;
     put_scalar(group, "time", "ps", time)?;
@@ -76,13 +76,23 @@ fn put_picture(group: &Group, picture: &impl Picture) -> hdf5::Result<()> {
     put(group, "damage", "1", &[damage.len()], &damage, Packing::Plain)
 }
 
-fn put_rows<const WIDTH: usize>(group: &Group, name: &str, unit: &str, rows: &[[f64; WIDTH]]) -> hdf5::Result<()> {
-    let shape = [rows.len(), WIDTH];
-    put(group, name, unit, &shape, rows.as_flattened(), Packing::Plain)
+fn put_rows<R: Row>(group: &Group, name: &str, unit: &str, rows: &[R]) -> hdf5::Result<()> {
+    put(
+        group,
+        name,
+        unit,
+        &[rows.len(), R::WIDTH],
+        R::flat(rows),
+        Packing::Plain,
+    )
 }
 
-fn get_frame(group: &Group) -> hdf5::Result<Frame> {
-    let stress: Vec<[f64; 3]> = get_rows(group, "stress")?;
+fn get_rows<R: Row>(group: &Group, name: &str) -> hdf5::Result<Vec<R>> {
+    R::split(&get(group, name)?).ok_or_else(|| format!("`{name}` has no rows of {} numbers", R::WIDTH).into())
+}
+
+fn get_frame<V: Vector>(group: &Group) -> hdf5::Result<Frame<V>> {
+    let stress: Vec<V::Stress> = get_rows(group, "stress")?;
     Ok(Frame {
         step: get_scalar(group, "step")?,
         time: get_scalar(group, "time")?,

@@ -3,8 +3,8 @@
 use hdf5::Group;
 
 use super::arrays::{Packing, new_group, put};
-use super::field::{CELL_FIELDS, POINT_FIELDS};
-use super::frames::Frame;
+use super::field::{cell_fields, point_fields};
+use super::frames::Vector;
 
 /// What the file says of every step.
 #[derive(Default)]
@@ -15,14 +15,14 @@ pub(super) struct Steps {
 }
 
 impl Steps {
-    pub(super) fn push(&mut self, frame: &Frame) {
-        self.time.push(frame.time);
-        self.step.push(frame.step);
-        self.strain.push(frame.strain);
+    pub(super) fn push(&mut self, step: u64, time: f64, strain: f64) {
+        self.step.push(step);
+        self.time.push(time);
+        self.strain.push(strain);
     }
 
     /// Writes the groups `Steps` and `FieldData` of a grid with so many points and cells.
-    pub(super) fn put(&self, grid: &Group, points: usize, cells: usize) -> hdf5::Result<()> {
+    pub(super) fn put<V: Vector>(&self, grid: &Group, points: usize, cells: usize) -> hdf5::Result<()> {
         let count = self.time.len();
         // Where a step's stretch begins in an array that holds `rows` rows a step; 0 rows: the same for all.
         let put_offsets = |group: &Group, name: &str, rows: usize, shape: &[usize]| {
@@ -53,12 +53,12 @@ impl Steps {
         put_offsets(&steps, "ConnectivityIdOffsets", 0, &[count, 1])?;
 
         let group = new_group(&steps, "PointDataOffsets")?;
-        for field in &POINT_FIELDS {
+        for field in point_fields::<V>() {
             put_offsets(&group, field.name, points, &[count])?;
         }
         let group = new_group(&steps, "CellDataOffsets")?;
         put_offsets(&group, "element_size", 0, &[count])?;
-        for field in &CELL_FIELDS {
+        for field in cell_fields::<V>() {
             put_offsets(&group, field.name, cells, &[count])?;
         }
         let group = new_group(&steps, "FieldDataOffsets")?;

@@ -39,7 +39,7 @@ impl Default for Fire {
 
 impl Fire {
     /// Moves until the residual is no larger than this.
-    pub fn run(mut self, descent: &mut Descent, residual: f64) -> Result<(), RelaxationError> {
+    pub fn run<const D: usize>(mut self, descent: &mut Descent<D>, residual: f64) -> Result<(), RelaxationError> {
         let mut velocity = zeros_like(&descent.state.position);
         while descent.residual() > residual {
             self.judge(descent, &mut velocity);
@@ -62,7 +62,7 @@ impl Fire {
     }
 
     /// Lengthens the step downhill; uphill goes half a step back and starts anew.
-    fn judge(&mut self, descent: &mut Descent, velocity: &mut Planes) {
+    fn judge<const D: usize>(&mut self, descent: &mut Descent<D>, velocity: &mut Planes<D>) {
         if plain_dot(&descent.state.force, velocity) > 0.0 {
             self.downhill += 1;
             if self.downhill > PATIENCE {
@@ -81,7 +81,7 @@ impl Fire {
     }
 
     /// Speed, weighted by the masses, after a kick by the force.
-    fn kicked_speed(&self, descent: &Descent, velocity: &Planes, pull: f64) -> f64 {
+    fn kicked_speed<const D: usize>(&self, descent: &Descent<D>, velocity: &Planes<D>, pull: f64) -> f64 {
         // Where the motion is prescribed both are zero.
         let squared = sum([velocity, &descent.compliance], |[value, compliance]| {
             if compliance > 0.0 {

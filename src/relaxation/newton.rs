@@ -20,7 +20,7 @@ const LONGEST_MOVE: f64 = 0.1;
 /// How often a step is halved before it is given up.
 const HALVINGS: u32 = 4;
 
-impl Descent<'_> {
+impl<const D: usize> Descent<'_, D> {
     /// One step. False, with the positions as they were: the energy curves downwards or the residual hardly falls.
     pub fn newton_step(&mut self) -> Result<bool, RelaxationError> {
         let start = [self.state.position.clone(), self.state.force.clone()];
@@ -45,7 +45,11 @@ impl Descent<'_> {
 
     /// Solves stiffness times direction = force, as far as it takes a sensible number of products. `None`: the stiffness
     /// is not positive. Leaves the positions displaced.
-    fn newton_direction(&mut self, position: &Planes, force: &Planes) -> Result<Option<Planes>, RelaxationError> {
+    fn newton_direction(
+        &mut self,
+        position: &Planes<D>,
+        force: &Planes<D>,
+    ) -> Result<Option<Planes<D>>, RelaxationError> {
         let mut direction = zeros_like(force);
         let mut rest = force.clone();
         let mut search = zeros_like(force);

@@ -14,7 +14,7 @@ const PART: usize = 1 << 14;
 const LANES: usize = 8;
 
 /// Sum of the terms of all components.
-pub fn sum<const N: usize>(vectors: [&Planes; N], term: impl Fn([f64; N]) -> f64 + Sync) -> f64 {
+pub fn sum<const N: usize, const D: usize>(vectors: [&Planes<D>; N], term: impl Fn([f64; N]) -> f64 + Sync) -> f64 {
     let plane = |axis: usize| {
         let planes = vectors.map(|vector| &vector[axis]);
         let parts = 0..planes[0].len().div_ceil(PART);
@@ -22,7 +22,7 @@ pub fn sum<const N: usize>(vectors: [&Planes; N], term: impl Fn([f64; N]) -> f64
         let sums: Vec<f64> = parts.into_par_iter().map(part).collect();
         sums.iter().sum::<f64>()
     };
-    plane(0) + plane(1)
+    (0..D).map(plane).sum()
 }
 
 fn sum_of_part<const N: usize>(slices: [&[f64]; N], term: impl Fn([f64; N]) -> f64) -> f64 {
@@ -39,8 +39,12 @@ fn sum_of_part<const N: usize>(slices: [&[f64]; N], term: impl Fn([f64; N]) -> f
 }
 
 /// Puts what the rule makes of every component and those of other vectors in its place.
-pub fn change<const N: usize>(target: &mut Planes, vectors: [&Planes; N], rule: impl Fn(f64, [f64; N]) -> f64 + Sync) {
-    for axis in 0..2 {
+pub fn change<const N: usize, const D: usize>(
+    target: &mut Planes<D>,
+    vectors: [&Planes<D>; N],
+    rule: impl Fn(f64, [f64; N]) -> f64 + Sync,
+) {
+    for axis in 0..D {
         let parts = target[axis].par_chunks_mut(PART).enumerate();
         parts.for_each(|(number, values)| {
             change_part(values, vectors.map(|vector| part_of(&vector[axis], number)), &rule);
@@ -68,33 +72,33 @@ fn part_of(plane: &[f64], number: usize) -> &[f64] {
 }
 
 /// Sum of weight a b.
-pub fn dot(weight: &Planes, a: &Planes, b: &Planes) -> f64 {
+pub fn dot<const D: usize>(weight: &Planes<D>, a: &Planes<D>, b: &Planes<D>) -> f64 {
     sum([weight, a, b], |[weight, a, b]| weight * a * b)
 }
 
 /// Sum of a b.
-pub fn plain_dot(a: &Planes, b: &Planes) -> f64 {
+pub fn plain_dot<const D: usize>(a: &Planes<D>, b: &Planes<D>) -> f64 {
     sum([a, b], |[a, b]| a * b)
 }
 
 /// target += factor vector
-pub fn add(target: &mut Planes, factor: f64, vector: &Planes) {
+pub fn add<const D: usize>(target: &mut Planes<D>, factor: f64, vector: &Planes<D>) {
     change(target, [vector], |target, [value]| target + factor * value);
 }
 
 /// target = kept target + factor weight vector
-pub fn turn(target: &mut Planes, kept: f64, factor: f64, weight: &Planes, vector: &Planes) {
+pub fn turn<const D: usize>(target: &mut Planes<D>, kept: f64, factor: f64, weight: &Planes<D>, vector: &Planes<D>) {
     change(target, [weight, vector], |target, [weight, value]| {
         kept * target + factor * weight * value
     });
 }
 
-pub fn zeros_like(vector: &Planes) -> Planes {
-    [vec![0.0; vector[0].len()], vec![0.0; vector[1].len()]]
+pub fn zeros_like<const D: usize>(vector: &Planes<D>) -> Planes<D> {
+    vector.each_ref().map(|plane| vec![0.0; plane.len()])
 }
 
 /// Largest component by size.
-pub fn largest(vector: &Planes) -> f64 {
+pub fn largest<const D: usize>(vector: &Planes<D>) -> f64 {
     let sizes = |plane: &Vec<f64>| {
         plane
             .par_iter()
@@ -102,17 +106,17 @@ pub fn largest(vector: &Planes) -> f64 {
             .map(|value| value.abs())
             .reduce(|| 0.0, f64::max)
     };
-    sizes(&vector[0]).max(sizes(&vector[1]))
+    vector.iter().map(sizes).fold(0.0, f64::max)
 }
 
 /// Largest component, by size, among those whose weight is not zero.
-pub fn largest_free(vector: &Planes, weight: &Planes) -> f64 {
+pub fn largest_free<const D: usize>(vector: &Planes<D>, weight: &Planes<D>) -> f64 {
     let sizes = |axis: usize| {
         let components = vector[axis].par_iter().zip(&weight[axis]).with_min_len(PART);
         let free = components.map(|(value, weight)| if *weight > 0.0 { value.abs() } else { 0.0 });
         free.reduce(|| 0.0, f64::max)
     };
-    sizes(0).max(sizes(1))
+    (0..D).map(sizes).fold(0.0, f64::max)
 }
 
 #[cfg(test)]

@@ -1,44 +1,76 @@
 //! Writes what a solver gives into the folder of its run.
 
-use std::borrow::Cow;
+mod slab;
+mod solid;
+
 use std::path::{Path, PathBuf};
 
 use super::RunCaseError;
-use crate::analysis::series::Series;
-use crate::lattice::triangular;
-use crate::mesh::Mesh;
-use crate::mesh::element::Element;
-use crate::record::frames::FieldMesh;
-use crate::record::{self, CHECKPOINT_FILE, Picture, RecordError};
+use crate::record::checkpoint::Keep;
+use crate::record::frames::{FieldMesh, Vector};
+use crate::record::rows::{Described, Rows};
+use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
-use crate::solver::{self, Cost, Moment, Observer, Progress, Reading, Solver, site_volume};
+use crate::solver::{self, Cost, Instruments, Moment, Observer, Progress, Solver};
 use crate::store::{Account, Phase, Spent};
 
+/// What of a kind of specimen goes into the folder of its run.
+pub trait Recorded<const D: usize>: Instruments<D, Kept: Keep> + Sized {
+    /// What must be known to understand its series.
+    type Setting: Described<Rows: Clone>;
+    /// A vector of its space.
+    type Vector: Vector;
+
+    fn setting(&self) -> Self::Setting;
+
+    /// The rows of its series, none yet.
+    fn no_rows(&self) -> RowsOf<Self, D>;
+
+    /// Adds what a probe has read.
+    fn add_row(rows: &mut RowsOf<Self, D>, reading: &Self::Reading);
+
+    /// Cells and reference positions of its pictures.
+    fn field_mesh(&self) -> FieldMesh<Self::Vector>;
+
+    /// Writes a picture into a folder.
+    fn write_frame(folder: &Path, moment: &Moment<Self, D>, site_volume: f64) -> Result<(), RecordError>;
+
+    /// Reference volume of a site, nm^3.
+    fn site_volume(&self) -> f64;
+}
+
+/// The rows of the series of a kind of specimen.
+pub type RowsOf<B, const D: usize> = <<B as Recorded<D>>::Setting as Described>::Rows;
+
 /// Keeps probes in memory until the next checkpoint, and writes snapshots at once.
-pub struct Recorder<'a> {
+pub struct Recorder<'a, R: Rows> {
     folder: PathBuf,
     case_id: String,
     /// Probes since the last segment, and the number of the first of them.
-    part: Series,
+    part: R,
     first_probe: u64,
+    /// A part without probes.
+    empty: R,
     site_volume: f64,
     account: Account,
     tell: &'a mut (dyn FnMut(&Progress) + Send),
 }
 
-impl<'a> Recorder<'a> {
-    pub fn new(folder: &Path, case_id: String, solver: &Solver, tell: &'a mut (dyn FnMut(&Progress) + Send)) -> Self {
-        let part = Series {
-            profile_x: solver.profile_x().to_vec(),
-            gauge_places: solver.gauge_places().to_vec(),
-            ..Series::default()
-        };
+impl<'a, R: Rows + Clone> Recorder<'a, R> {
+    pub fn new<B: Recorded<D, Setting: Described<Rows = R>>, const D: usize>(
+        folder: &Path,
+        case_id: String,
+        solver: &Solver<B, D>,
+        tell: &'a mut (dyn FnMut(&Progress) + Send),
+    ) -> Self {
+        let empty = solver.body().no_rows();
         Self {
             folder: folder.to_path_buf(),
             case_id,
-            part,
+            part: empty.clone(),
             first_probe: solver.probe_count(),
-            site_volume: site_volume(solver.setting()),
+            empty,
+            site_volume: solver.body().site_volume(),
             account: Account::open(folder),
             tell,
         }
@@ -47,14 +79,8 @@ impl<'a> Recorder<'a> {
     /// Writes the probes kept in memory.
     pub fn flush(&mut self) -> Result<(), RecordError> {
         record::write_segment(&self.folder, self.first_probe, &self.part)?;
-        self.first_probe += self.part.probes.len() as u64;
-        let profile_x = std::mem::take(&mut self.part.profile_x);
-        let gauge_places = std::mem::take(&mut self.part.gauge_places);
-        self.part = Series {
-            profile_x,
-            gauge_places,
-            ..Series::default()
-        };
+        self.first_probe += self.part.steps().len() as u64;
+        self.part = self.empty.clone();
         Ok(())
     }
 
@@ -64,73 +90,19 @@ impl<'a> Recorder<'a> {
     }
 }
 
-/// A moment as a picture shows it.
-struct Snapshot<'a> {
-    moment: &'a Moment<'a>,
-    site_volume: f64,
-}
-
-impl Picture for Snapshot<'_> {
-    fn moment(&self) -> (u64, f64, f64) {
-        (self.moment.step, self.moment.time, self.moment.strain)
-    }
-
-    fn displacement(&self) -> Cow<'_, [[f64; 2]]> {
-        let Moment { mesh, state, .. } = self.moment;
-        let [x, y] = &state.position;
-        let [from_x, from_y] = mesh.node_positions();
-        let moved = x.iter().zip(from_x).zip(y.iter().zip(from_y));
-        let displacement = moved.map(|((x, from_x), (y, from_y))| [x - from_x, y - from_y]);
-        Cow::Owned(collected(state.nodes(), displacement))
-    }
-
-    fn velocity(&self) -> Cow<'_, [[f64; 2]]> {
-        let [x, y] = &self.moment.state.velocity;
-        Cow::Owned(x.iter().zip(y).map(|(&x, &y)| [x, y]).collect())
-    }
-
-    fn stress(&self) -> Cow<'_, [[f64; 3]]> {
-        let Moment { mesh, measure, .. } = self.moment;
-        let stress = mesh.elements.iter().enumerate().map(|(number, element)| {
-            let volume = element.site_count() as f64 * self.site_volume;
-            measure.virial(number).map(|component| component / volume)
-        });
-        Cow::Owned(stress.collect())
-    }
-
-    fn damage(&self) -> Cow<'_, [f64]> {
-        Cow::Owned(damage(self.moment.mesh, self.moment.broken))
-    }
-}
-
-/// So many items without a gap in memory behind them.
-fn collected<T>(count: usize, items: impl Iterator<Item = T>) -> Vec<T> {
-    let mut collected = Vec::with_capacity(count);
-    collected.extend(items);
-    collected
-}
-
-impl Observer for Recorder<'_> {
+impl<B: Recorded<D>, const D: usize> Observer<B, D> for Recorder<'_, RowsOf<B, D>> {
     type Error = RunCaseError;
 
-    fn probe(&mut self, reading: &Reading) -> Result<(), RunCaseError> {
-        self.part.probes.push(*reading.probe);
-        self.part.profiles.extend_from_slice(reading.profile);
-        self.part.tractions.extend_from_slice(reading.traction);
-        self.part.gauges.extend_from_slice(reading.gauges);
-        self.part.bonds.extend_from_slice(reading.bonds);
+    fn probe(&mut self, reading: &B::Reading) -> Result<(), RunCaseError> {
+        B::add_row(&mut self.part, reading);
         Ok(())
     }
 
-    fn snapshot(&mut self, moment: &Moment) -> Result<(), RunCaseError> {
-        let snapshot = Snapshot {
-            moment,
-            site_volume: self.site_volume,
-        };
-        Ok(record::write_frame(&self.folder, &snapshot)?)
+    fn snapshot(&mut self, moment: &Moment<B, D>) -> Result<(), RunCaseError> {
+        Ok(B::write_frame(&self.folder, moment, self.site_volume)?)
     }
 
-    fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), RunCaseError> {
+    fn checkpoint(&mut self, checkpoint: &Checkpoint<B::Kept, D>, cost: &Cost) -> Result<(), RunCaseError> {
         self.flush()?;
         record::checkpoint::write(&self.folder.join(CHECKPOINT_FILE), &self.case_id, checkpoint)?;
         Ok(self.account.save(&spent(cost))?)
@@ -153,44 +125,9 @@ fn spent(cost: &Cost) -> Spent {
     }
 }
 
-/// Cells and reference positions, x from the left edge and y from the crack plane.
-pub fn field_mesh(solver: &Solver) -> FieldMesh {
-    let mesh = solver.mesh();
-    let [left, middle] = [solver.setting().left_x, mesh.middle_height()];
-    let [x, y] = mesh.node_positions();
-    let mut offsets = vec![0];
-    for element in &mesh.elements {
-        offsets.push(offsets[offsets.len() - 1] + element.node_count() as u32);
-    }
-    FieldMesh {
-        points: x.iter().zip(&y).map(|(x, y)| [x - left, y - middle]).collect(),
-        connectivity: (0..mesh.elements.len())
-            .flat_map(|element| mesh.nodes_of(element))
-            .map(|node| node as u32)
-            .collect(),
-        offsets,
-        element_size: mesh.elements.iter().map(|element| element.size as u32).collect(),
-    }
-}
-
-/// For every element the broken share of the reference bonds of its sites.
-fn damage(mesh: &Mesh, broken: &[[i32; 3]]) -> Vec<f64> {
-    let mut count = vec![0.0; mesh.elements.len()];
-    for &[column, row, direction] in broken {
-        let vector = triangular::NEAREST[direction as usize];
-        for site in [[column, row], [column + vector[0], row + vector[1]]] {
-            if let Some(owner) = mesh.owner_of(site) {
-                count[owner] += 1.0;
-            }
-        }
-    }
-    let shares = count.iter_mut().zip(&mesh.elements);
-    shares.for_each(|(broken, element)| *broken /= bonds_of(element));
-    count
-}
-
-/// Nearest-neighbour bonds that touch the sites of an element: six a site, those inside counted once.
-fn bonds_of(element: &Element) -> f64 {
-    let inside = 3 * element.size * (element.size - 1) / 2;
-    6.0 * element.site_count() as f64 - f64::from(inside)
+/// So many items without a gap in memory behind them.
+fn collected<T>(count: usize, items: impl Iterator<Item = T>) -> Vec<T> {
+    let mut collected = Vec::with_capacity(count);
+    collected.extend(items);
+    collected
 }

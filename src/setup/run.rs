@@ -5,7 +5,7 @@ use std::path::Path;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::recorder::{Recorder, field_mesh};
+use super::recorder::{Recorded, Recorder, RowsOf};
 use super::{SetupError, shared_solver};
 use crate::domain::{MessageCost, Ranks};
 use crate::plan::CaseId;
@@ -71,11 +71,12 @@ pub fn run_case(
         threads,
         why: error.to_string(),
     })?;
-    pool.install(|| compute(case, into, ranks, stop, tell, warn))
+    pool.install(|| compute(case, || shared_solver(case, ranks), into, ranks, stop, tell, warn))
 }
 
-fn compute(
+fn compute<B: Recorded<D>, const D: usize>(
     case: &Case,
+    set_up: impl FnOnce() -> Result<Solver<B, D>, SetupError>,
     into: &Path,
     ranks: Ranks,
     stop: &AtomicBool,
@@ -84,7 +85,7 @@ fn compute(
 ) -> Result<Finished, RunCaseError> {
     let id = CaseId::of(case).to_string();
     let start = Instant::now();
-    let mut solver = shared_solver(case, ranks)?;
+    let mut solver = set_up()?;
     let set_up = start.elapsed().as_secs_f64();
     let mesh = set_up - solver.cost().seconds(solver::Phase::SetUp) - solver.cost().seconds(solver::Phase::Cut);
     resume(&mut solver, into, ranks, &id, warn)?;
@@ -137,8 +138,8 @@ fn phase(name: &str, seconds: f64) -> Phase {
 
 /// Goes back to the folder's checkpoint, and removes what was recorded after it. The first rank decides whether there is
 /// one.
-fn resume(
-    solver: &mut Solver,
+fn resume<B: Recorded<D>, const D: usize>(
+    solver: &mut Solver<B, D>,
     into: &Path,
     ranks: Ranks,
     id: &str,
@@ -146,7 +147,7 @@ fn resume(
 ) -> Result<(), RunCaseError> {
     let path = into.join(CHECKPOINT_FILE);
     let found = if ranks.is_first() {
-        usable_checkpoint(into, &path, id, warn)?
+        usable_checkpoint::<B, D>(into, &path, id, warn)?
     } else {
         None
     };
@@ -161,11 +162,11 @@ fn resume(
     match solver.restore(&checkpoint) {
         Ok(()) => (),
         Err(SolverError::OtherSpecimen(_)) if !ranks.is_first() => return Ok(()),
-        Err(error @ SolverError::OtherSpecimen(_)) => return start_afresh(into, &error, warn),
+        Err(error @ SolverError::OtherSpecimen(_)) => return start_afresh::<B, D>(into, &error, warn),
         Err(error) => return Err(RunCaseError::Physics(error, into.display().to_string())),
     }
     if ranks.is_first() {
-        record::cut_back(into, Some(checkpoint.step))?;
+        record::cut_back::<RowsOf<B, D>>(into, Some(checkpoint.step))?;
         warn(&format!(
             "going on from step {}, {:.3} ps",
             checkpoint.step, checkpoint.time
@@ -175,30 +176,36 @@ fn resume(
 }
 
 /// The folder's checkpoint; where there is none of use, nothing else is left either.
-fn usable_checkpoint(
+fn usable_checkpoint<B: Recorded<D>, const D: usize>(
     into: &Path,
     path: &Path,
     id: &str,
     warn: &mut (dyn FnMut(&str) + Send),
-) -> Result<Option<Checkpoint>, RunCaseError> {
+) -> Result<Option<Checkpoint<B::Kept, D>>, RunCaseError> {
     match record::checkpoint::read(path, id) {
         Ok(checkpoint) => return Ok(Some(checkpoint)),
-        Err(RecordError::Absent { .. }) => record::cut_back(into, None)?,
-        Err(error @ (RecordError::Damaged { .. } | RecordError::NotOurs { .. })) => start_afresh(into, &error, warn)?,
+        Err(RecordError::Absent { .. }) => record::cut_back::<RowsOf<B, D>>(into, None)?,
+        Err(error @ (RecordError::Damaged { .. } | RecordError::NotOurs { .. })) => {
+            start_afresh::<B, D>(into, &error, warn)?;
+        }
         Err(error) => return Err(error.into()),
     }
     Ok(None)
 }
 
 /// Forgets a run whose checkpoint is of no use.
-fn start_afresh(into: &Path, why: &dyn Error, warn: &mut (dyn FnMut(&str) + Send)) -> Result<(), RunCaseError> {
+fn start_afresh<B: Recorded<D>, const D: usize>(
+    into: &Path,
+    why: &dyn Error,
+    warn: &mut (dyn FnMut(&str) + Send),
+) -> Result<(), RunCaseError> {
     warn(&format!("{why}; starting afresh"));
-    Ok(record::cut_back(into, None)?)
+    Ok(record::cut_back::<RowsOf<B, D>>(into, None)?)
 }
 
 /// Ends a solver: what publishing takes of memory must not come on top of its own.
-fn publish(solver: Solver, into: &Path, id: &str) -> Result<(), RecordError> {
-    let (setting, mesh) = (solver.setting().clone(), field_mesh(&solver));
+fn publish<B: Recorded<D>, const D: usize>(solver: Solver<B, D>, into: &Path, id: &str) -> Result<(), RecordError> {
+    let (setting, mesh) = (solver.body().setting(), solver.body().field_mesh());
     drop(solver);
     record::publish_series(into, id, &setting)?;
     record::publish_fields(into, id, &mesh)

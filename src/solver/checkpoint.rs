@@ -1,13 +1,14 @@
 //! Everything a run needs to go on, bit for bit, as if it had never stopped.
 
+use std::array;
 use std::mem::swap;
 
-use crate::analysis::series::BondEvent;
+use super::slab::Kept;
 use crate::state::State;
 
 /// State of a run between two steps. Internal units (nm, ps, eV).
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Checkpoint {
+#[derive(Clone, Debug, PartialEq)]
+pub struct Checkpoint<K = Kept, const D: usize = 2> {
     /// Steps taken.
     pub step: u64,
     /// Simulated time, ps.
@@ -16,45 +17,47 @@ pub struct Checkpoint {
     pub time_step: f64,
     /// Bound of the time step when it was last looked at, ps.
     pub stability_limit: f64,
-    /// Node positions, x then y, nm; each of length `nodes`.
-    pub position: [Vec<f64>; 2],
+    /// Node positions, an axis after the other, nm; each of length `nodes`.
+    pub position: [Vec<f64>; D],
     /// Node velocities at the same time, nm/ps.
-    pub velocity: [Vec<f64>; 2],
+    pub velocity: [Vec<f64>; D],
     /// Interfaces that have left the intact path, ascending.
     pub open_interfaces: Vec<u32>,
     /// Potential energy (eV), pairs within the cutoff and kinetic energy (eV) when the motion began.
     pub start: [f64; 3],
-    /// Impulse with which every node in the grips was pulled so far, the lower grip first, eV ps/nm.
-    pub grip_impulses: Vec<f64>,
-    /// Kinetic energy that the sponges have taken from each of their elements so far, eV.
-    pub absorbed: Vec<f64>,
     /// Largest |work| and largest energy imbalance seen, eV.
     pub peak_work: f64,
     pub peak_imbalance: f64,
-    /// Bonds broken at the last probe, ascending (column, row, direction).
-    pub broken_bonds: Vec<[i32; 3]>,
-    /// Bonds that the crack had parted by then, also where its faces touch, with the probes at which they broke, ascending
-    /// (column, row, direction).
-    pub parted_bonds: Vec<BondEvent>,
-    /// The probes at which the crack joined one ahead of it.
-    pub joins: Vec<u32>,
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,
-    /// Time at which the crack or the damage ahead of it last advanced, ps, the farthest tip and the front of the damage in the
-    /// frame of the crack, nm; for the stop at arrest.
-    pub last_advance: f64,
-    pub farthest_tip: f64,
-    pub damage_front: f64,
-    /// When the crack first had a branch, ps, if the run is to end after it; infinite otherwise.
-    pub branched: f64,
-    /// When the crack left its plane, ps; infinite as long as it keeps to it.
-    pub left_plane: f64,
+    /// What the loading has done and the instruments have seen.
+    pub kept: K,
 }
 
-impl Checkpoint {
+impl<K: Default, const D: usize> Default for Checkpoint<K, D> {
+    fn default() -> Self {
+        Self {
+            step: 0,
+            time: 0.0,
+            time_step: 0.0,
+            stability_limit: 0.0,
+            position: array::from_fn(|_| Vec::new()),
+            velocity: array::from_fn(|_| Vec::new()),
+            open_interfaces: Vec::new(),
+            start: [0.0; 3],
+            peak_work: 0.0,
+            peak_imbalance: 0.0,
+            probes: 0,
+            snapshots: 0,
+            kept: K::default(),
+        }
+    }
+}
+
+impl<K, const D: usize> Checkpoint<K, D> {
     /// Exchanges positions and velocities with a state.
-    pub(super) fn lend(&mut self, state: &mut State) {
+    pub(super) fn lend(&mut self, state: &mut State<D>) {
         swap(&mut self.position, &mut state.position);
         swap(&mut self.velocity, &mut state.velocity);
     }

@@ -16,23 +16,23 @@ pub enum SolverError {
     )]
     OutrunByGrips { given: f64, longest: f64 },
     #[error(
-        "step {step}, {time:.3} ps, strain {strain:.5}: {source}, which was at x = {:.3} nm, y = {:.3} nm; \
+        "step {step}, {time:.3} ps, strain {strain:.5}: {source}, which was at {}; \
          try a smaller fraction of the stability limit or a lower strain rate",
-        place[0], place[1]
+        named(place)
     )]
     BlowUp {
         step: u64,
         time: f64,
         strain: f64,
-        /// Where the element was before the loading: nm from the left edge, and from the crack plane.
-        place: [f64; 2],
+        /// Where the element was before the loading, nm: in a slab from the left edge, and from the crack plane.
+        place: Vec<f64>,
         source: ForceError,
     },
     #[error(
         "step {step}, {time:.3} ps, strain {strain:.5}: energy went astray by {imbalance:.3e} eV, \
-         more than {limit:.0} % of the energy put in ({put_in:.3e} eV), with the fastest node at x = {:.3} nm, \
-         y = {:.3} nm; try a smaller fraction of the stability limit",
-        fastest[0], fastest[1]
+         more than {limit:.0} % of the energy put in ({put_in:.3e} eV), with the fastest node at {}; try a smaller \
+         fraction of the stability limit",
+        named(fastest)
     )]
     EnergyAstray {
         step: u64,
@@ -41,8 +41,8 @@ pub enum SolverError {
         imbalance: f64,
         put_in: f64,
         limit: f64,
-        /// Where the fastest node was before the loading: nm from the left edge, and from the crack plane.
-        fastest: [f64; 2],
+        /// Where the fastest node was before the loading, nm.
+        fastest: Vec<f64>,
     },
     #[error(
         "step {step}, {time:.3} ps, strain {strain:.5}: the given time step of {given:.5} ps is no longer stable: the \
@@ -77,4 +77,11 @@ pub enum RunError<E> {
     Physics(#[from] SolverError),
     #[error("{0}")]
     Output(E),
+}
+
+/// A place with the names of its axes, nm.
+fn named(place: &[f64]) -> String {
+    let axes = ["x", "y", "z"].iter().zip(place);
+    let axes: Vec<String> = axes.map(|(axis, at)| format!("{axis} = {at:.3} nm")).collect();
+    axes.join(", ")
 }

@@ -1,6 +1,6 @@
 //! Where the energy comes from and where it goes.
 
-use super::SolverError;
+use super::error::SolverError;
 
 /// Energy since the start of a run: what the grips put in, what is stored, and what the cutoff releases.
 ///
@@ -82,7 +82,7 @@ impl Ledger {
         step: u64,
         time: f64,
         strain: f64,
-        fastest: impl FnOnce() -> [f64; 2],
+        fastest: impl FnOnce() -> Vec<f64>,
     ) -> Result<(), SolverError> {
         let put_in = self.peak_work.max(self.initial_kinetic - self.held_kinetic);
         if self.peak_imbalance <= Self::LIMIT * put_in + self.rounding() {
@@ -149,7 +149,7 @@ mod tests {
     fn goes_on_with(held: f64, peak_work: f64, peak_imbalance: f64) -> bool {
         let mut ledger = Ledger::new([0.0; 2], [0.0, held], 0.0);
         ledger.restore([POTENTIAL, PAIRS, KINETIC + held], peak_work, peak_imbalance);
-        ledger.check(1, 1.0, 1e-9, || [0.0; 2]).is_ok()
+        ledger.check(1, 1.0, 1e-9, Vec::new).is_ok()
     }
 
     #[test]

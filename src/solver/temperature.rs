@@ -4,7 +4,6 @@ use std::collections::HashMap;
 
 use rayon::prelude::*;
 
-use crate::mesh::Mesh;
 use crate::state::State;
 
 /// Boltzmann's constant, eV/K.
@@ -16,8 +15,8 @@ const CELL: i32 = 8;
 /// Runs in one parallel task.
 const TASK: usize = 512;
 
-/// The atoms that are not in the grips, by cells.
-#[derive(Clone, Debug, PartialEq)]
+/// Atoms by cells of the lattice.
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Thermometer {
     /// First node, number of nodes and cell of atoms that follow each other in one cell.
     runs: Vec<[u32; 3]>,
@@ -26,19 +25,14 @@ pub struct Thermometer {
 }
 
 impl Thermometer {
-    pub fn new(mesh: &Mesh) -> Self {
-        let mut thermometer = Self {
-            runs: Vec::new(),
-            cells: Vec::new(),
-        };
-        let mut number_of: HashMap<[i32; 2], u32> = HashMap::new();
-        let mut last = [i32::MAX; 2];
-        for (element, atom) in mesh.elements.iter().enumerate().skip(mesh.triangles) {
-            if mesh.grip_of(atom) != 0 {
-                continue;
-            }
-            let node = mesh.node(element, 0) as u32;
-            let key = [atom.column, atom.row].map(|coordinate| coordinate.div_euclid(CELL));
+    /// Of atoms by rising node: nodes and lattice sites.
+    pub fn new<const D: usize>(atoms: impl Iterator<Item = (usize, [i32; D])>) -> Self {
+        let mut thermometer = Self::default();
+        let mut number_of: HashMap<[i32; D], u32> = HashMap::new();
+        let mut last = [i32::MAX; D];
+        for (node, site) in atoms {
+            let node = node as u32;
+            let key = site.map(|coordinate| coordinate.div_euclid(CELL));
             let cell = match thermometer.runs.last_mut() {
                 Some([first, count, cell]) if key == last && *first + *count == node => {
                     *count += 1;
@@ -58,33 +52,35 @@ impl Thermometer {
         thermometer
     }
 
-    /// Kinetic temperature, K: the motion relative to the local velocity field, [Deng2011] Eq. (3-22) with two directions
-    /// instead of three. NaN where there are no atoms.
-    pub fn read(&self, state: &State) -> f64 {
+    /// Kinetic temperature, K: the motion relative to the local velocity field, [Deng2011] Eq. (3-22) with as many directions
+    /// as there are. NaN where there are no atoms.
+    pub fn read<const D: usize>(&self, state: &State<D>) -> f64 {
         let Some(&[first, ..]) = self.runs.first() else {
             return f64::NAN;
         };
-        let [x, y] = &state.velocity;
         let of_run = |&[first, count, _]: &[u32; 3]| {
-            let nodes = first as usize..(first + count) as usize;
-            nodes.fold([0.0; 3], |[sum_x, sum_y, squared], node| {
-                let [x, y] = [x[node], y[node]];
-                [sum_x + x, sum_y + y, squared + x * x + y * y]
-            })
+            let (mut sums, mut squared) = ([0.0; D], 0.0);
+            for node in first as usize..(first + count) as usize {
+                for (sum, plane) in sums.iter_mut().zip(&state.velocity) {
+                    let speed = plane[node];
+                    *sum += speed;
+                    squared += speed * speed;
+                }
+            }
+            (sums, squared)
         };
-        let sums: Vec<[f64; 3]> = self.runs.par_iter().with_min_len(TASK).map(of_run).collect();
-        let mut means = vec![[0.0; 2]; self.cells.len()];
+        let of_runs: Vec<([f64; D], f64)> = self.runs.par_iter().with_min_len(TASK).map(of_run).collect();
+        let mut means = vec![[0.0; D]; self.cells.len()];
         let mut squared = 0.0;
-        for (&[_, _, cell], [sum_x, sum_y, of_run]) in self.runs.iter().zip(sums) {
-            let [x, y] = &mut means[cell as usize];
-            *x += sum_x;
-            *y += sum_y;
+        for (&[_, _, cell], (sums, of_run)) in self.runs.iter().zip(of_runs) {
+            let mean = &mut means[cell as usize];
+            (0..D).for_each(|axis| mean[axis] += sums[axis]);
             squared += of_run;
         }
         let mut freedom = 0.0;
-        for (atoms, [x, y]) in self.cells.iter().zip(means) {
-            squared -= (x * x + y * y) / atoms;
-            freedom += 2.0 * (atoms - 1.0);
+        for (atoms, mean) in self.cells.iter().zip(means) {
+            squared -= mean.iter().map(|sum| sum * sum).sum::<f64>() / atoms;
+            freedom += D as f64 * (atoms - 1.0);
         }
         if freedom > 0.0 {
             state.mass[first as usize] * squared.max(0.0) / (freedom * BOLTZMANN)
@@ -97,40 +93,44 @@ impl Thermometer {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Plan;
-    use crate::mesh::sites::Layout;
+
+    /// A cube of atoms, or a square, and a state in which none moves.
+    fn atoms<const D: usize>(edge: i32) -> (Thermometer, State<D>) {
+        let count = (edge as usize).pow(D as u32);
+        let sites = (0..count).map(|node| {
+            let mut rest = node as i32;
+            let site: [i32; D] = std::array::from_fn(|_| {
+                let along = rest % edge;
+                rest /= edge;
+                along
+            });
+            (node, site)
+        });
+        let places = std::array::from_fn(|_| vec![0.0; count]);
+        (Thermometer::new(sites), State::at_rest(places, vec![2.0; count]))
+    }
+
+    fn rigid_motion_is_cold_and_random_motion_has_the_temperature_of_its_energy<const D: usize>() {
+        let (thermometer, mut state) = atoms::<D>(20);
+        state.velocity.iter_mut().for_each(|plane| plane.fill(3.0));
+        assert!(thermometer.read(&state).abs() < 1e-9);
+        let mut sign = 1.0;
+        for speed in &mut state.velocity[0] {
+            *speed += sign;
+            sign = -sign;
+        }
+        // One degree of freedom in D carries mass/2: T = m / (D k_B), less what the means of the cells take away.
+        let expected = 2.0 / (D as f64 * BOLTZMANN);
+        let found = thermometer.read(&state);
+        assert!((found / expected - 1.0).abs() < 0.05, "{found} for {expected}");
+    }
 
     #[test]
     fn rigid_motion_has_no_temperature_and_random_motion_has_that_of_its_energy() {
         // [Deng2011] Eq. (3-22)
-        let layout = Layout {
-            block: 10,
-            rows: 6,
-            triangles: 11,
-        };
-        let plan = Plan {
-            layout,
-            element: 1,
-            regions: vec![],
-            crack: None,
-            grip_rows: 10,
-            spacing: 1.0,
-        };
-        let mesh = Mesh::new(&plan);
-        let mut state = State::at_rest(mesh.node_positions(), vec![2.0; mesh.node_count()]);
-        state.velocity = [vec![3.0; mesh.node_count()], vec![-1.0; mesh.node_count()]];
-        assert!(Thermometer::new(&mesh).read(&state).abs() < 1e-9);
-        let mut sign = 1.0;
-        for node in 0..mesh.node_count() {
-            state.velocity[0][node] += sign;
-            sign = -sign;
-        }
-        // Half a degree of freedom in two carries mass/2 each: T = m / (2 k_B), less what the cells' means take away.
-        let expected = 2.0 / (2.0 * BOLTZMANN);
-        let found = Thermometer::new(&mesh).read(&state);
-        assert!((found / expected - 1.0).abs() < 0.05, "{found} for {expected}");
-        let coarse = Mesh::new(&Plan { element: 10, ..plan });
-        let state = State::at_rest(coarse.node_positions(), vec![1.0; coarse.node_count()]);
-        assert!(Thermometer::new(&coarse).read(&state).is_nan());
+        rigid_motion_is_cold_and_random_motion_has_the_temperature_of_its_energy::<2>();
+        rigid_motion_is_cold_and_random_motion_has_the_temperature_of_its_energy::<3>();
+        let nobody = std::iter::empty::<(usize, [i32; 3])>();
+        assert!(Thermometer::new(nobody).read(&atoms::<3>(2).1).is_nan());
     }
 }

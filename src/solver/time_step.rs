@@ -1,7 +1,5 @@
-use super::SolverError;
-use crate::forces::Forces;
+use super::error::SolverError;
 use crate::integrator::stability_limit;
-use crate::state::State;
 
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,20 +33,9 @@ pub fn is_rough(push: f64) -> bool {
 /// How near to the limit an automatic time step may come before it is made shorter.
 const NEAREST: f64 = 0.75;
 
-/// Stability limit of a state whose forces have just been computed, ps, to nine digits: what rounding does to the rest may
-/// depend on which elements are computed together, and must not get into a time step.
-pub fn limit(forces: &Forces, state: &State) -> f64 {
-    let bound = forces.squared_frequency_bound(state);
-    let [least, most] = [-1.0, 1.0].map(|sign| nine_digits(bound * (1.0 + sign * Forces::FREQUENCY_SLACK)));
-    if least == most {
-        return least;
-    }
-    // The digits that are kept hang on those that are not, once in some hundred looks.
-    nine_digits(forces.squared_frequency_bound_one_by_one(state))
-}
-
-/// The stability limit for a squared frequency, ps, without its last digits.
-fn nine_digits(squared_frequency: f64) -> f64 {
+/// The stability limit for a squared frequency, ps, to nine digits: what rounding does to the rest may depend on which
+/// elements are computed together, and must not get into a time step.
+pub fn nine_digits(squared_frequency: f64) -> f64 {
     const DROPPED_BITS: u64 = (1 << 22) - 1;
     f64::from_bits(stability_limit(squared_frequency).to_bits() & !DROPPED_BITS)
 }

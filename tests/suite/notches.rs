@@ -52,7 +52,7 @@ fn run(crack: &str, element: u32, until: &str) -> (Setting, Series, Findings) {
     let (stop, mut quiet) = (AtomicBool::new(false), |_: &str| ());
     let case = case(crack, element, until);
     run_case(&case, folder.path(), Ranks::alone(), 1, &stop, &mut |_| (), &mut quiet).expect("it runs to its end");
-    let (setting, series) = read_series(&folder.path().join(SERIES_FILE)).expect("it is published");
+    let (setting, series) = read_series::<Setting>(&folder.path().join(SERIES_FILE)).expect("it is published");
     let findings = analyse(&series, &setting);
     (setting, series, findings)
 }
@@ -255,9 +255,9 @@ fn a_run_with_a_crack_from_the_right_goes_on_from_its_checkpoint_as_if_it_had_no
     parted.iter_mut().for_each(|event| *event = frame.event(event));
     assert!(!parted.is_empty());
     let mut checkpoint = make().checkpoint();
-    checkpoint.parted_bonds = parted;
+    checkpoint.kept.parted_bonds = parted;
     let place = |event: &BondEvent| (event.column, event.row, event.direction);
-    checkpoint.parted_bonds.sort_unstable_by_key(place);
+    checkpoint.kept.parted_bonds.sort_unstable_by_key(place);
     let mut resumed = make();
     resumed.restore(&checkpoint).expect("it is of this specimen");
     assert_eq!(resumed.checkpoint(), checkpoint);

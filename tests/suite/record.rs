@@ -4,10 +4,12 @@ mod checkpoint;
 mod interrupted;
 mod others;
 mod pieces;
+mod solids;
 
 use cgaft::analysis::series::{BondEvent, CrackFrom, Probe, Series, Setting};
 use cgaft::record::frames::{FieldMesh, Frame};
 use cgaft::solver::checkpoint::Checkpoint;
+use cgaft::solver::slab::Kept;
 
 /// A number with no short form, different for every `seed`.
 fn number(seed: u64) -> f64 {
@@ -36,22 +38,24 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         velocity: [column(30), column(40)],
         open_interfaces: vec![0, 7, u32::MAX],
         start: [number(6), number(7), number(8)],
-        grip_impulses: column(50),
-        absorbed: column(60),
         peak_work: f64::INFINITY,
         peak_imbalance: number(2),
-        broken_bonds: vec![[-1, 2, 0], [i32::MAX, i32::MIN, 2]],
-        parted_bonds: [[-1, 2, 0], [0, 3, 1], [i32::MAX, i32::MIN, 2]]
-            .map(parted_at(7))
-            .to_vec(),
-        joins: vec![3, 7],
         probes: 12,
         snapshots: 3,
-        last_advance: number(3),
-        farthest_tip: number(4),
-        damage_front: 14.25,
-        branched: f64::INFINITY,
-        left_plane: 61.5,
+        kept: Kept {
+            grip_impulses: column(50),
+            absorbed: column(60),
+            broken_bonds: vec![[-1, 2, 0], [i32::MAX, i32::MIN, 2]],
+            parted_bonds: [[-1, 2, 0], [0, 3, 1], [i32::MAX, i32::MIN, 2]]
+                .map(parted_at(7))
+                .to_vec(),
+            joins: vec![3, 7],
+            last_advance: number(3),
+            farthest_tip: number(4),
+            damage_front: 14.25,
+            branched: f64::INFINITY,
+            left_plane: 61.5,
+        },
     }
 }
 

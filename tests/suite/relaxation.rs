@@ -1,7 +1,7 @@
 //! Specimens come to rest.
 
 use cgaft::forces::{Forces, Planes};
-use cgaft::loading::{Grip, Stretching};
+use cgaft::loading::{Grip, Load, Stretching};
 use cgaft::material::Material;
 use cgaft::mesh::Mesh;
 use cgaft::potential::AtCutoff;

@@ -28,7 +28,7 @@ fn small_model(name: &str) -> (Setting, Findings) {
     let (stop, mut quiet) = (AtomicBool::new(false), |_: &str| ());
     let case = &planned.case;
     run_case(case, folder.path(), Ranks::alone(), 1, &stop, &mut |_| (), &mut quiet).expect("it runs to its end");
-    let (setting, series) = read_series(&folder.path().join(SERIES_FILE)).expect("it is published");
+    let (setting, series) = read_series::<Setting>(&folder.path().join(SERIES_FILE)).expect("it is published");
     let findings = analysis::analyse(&series, &setting);
     (setting, findings)
 }

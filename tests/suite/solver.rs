@@ -37,8 +37,8 @@ struct Keeper {
 impl Observer for Keeper {
     type Error = Infallible;
     fn probe(&mut self, reading: &Reading) -> Result<(), Infallible> {
-        self.probes.push(*reading.probe);
-        self.bonds.extend_from_slice(reading.bonds);
+        self.probes.push(reading.probe);
+        self.bonds.extend_from_slice(&reading.bonds);
         Ok(())
     }
     fn snapshot(&mut self, moment: &Moment) -> Result<(), Infallible> {
@@ -220,7 +220,7 @@ fn a_checkpoint_of_another_specimen_is_refused_and_changes_nothing() {
     let mut interfaces = own.clone();
     interfaces.open_interfaces = vec![u32::MAX];
     let mut bonds = own.clone();
-    bonds.broken_bonds = vec![[i32::MAX, i32::MAX, 0]];
+    bonds.kept.broken_bonds = vec![[i32::MAX, i32::MAX, 0]];
     let mut shorter = own.clone();
     shorter.velocity[1].pop();
     for checkpoint in [foreign, interfaces, bonds, shorter] {

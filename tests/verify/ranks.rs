@@ -5,6 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
+use cgaft::analysis::series::Setting;
 use cgaft::domain::Domain;
 use cgaft::mesh::Mesh;
 use cgaft::record::read_series;
@@ -76,7 +77,7 @@ fn ranks_with_broken_bonds(case: &Case, run: &Path, ranks: u32) -> usize {
     let plan = setup::mesh_plan(case, &setup::material(case).unwrap()).unwrap();
     let mesh = Mesh::new(&plan);
     let domain = Domain::parts(ranks as usize, &mesh, |_| 1.0).next().unwrap();
-    let (_, series) = read_series(&run.join("series.h5")).unwrap();
+    let (_, series) = read_series::<Setting>(&run.join("series.h5")).unwrap();
     let bonds = series.bonds.iter().filter(|bond| bond.probe > 0 && bond.broken);
     let elements = bonds.filter_map(|bond| mesh.owner_of([bond.column, bond.row]));
     elements

@@ -7,8 +7,10 @@
 
 use pulp::Simd;
 
+use super::certified::Few;
 use super::inside::within;
 use super::measure::Held;
+use super::rule::Sample;
 use super::vector::Vector;
 use crate::lanes::{Lanes, Mask};
 use crate::potential::{CutPotential, PairShape};
@@ -93,58 +95,70 @@ impl<L: Simd> Face<L> {
         below
     }
 
-    /// The sum over all bonds, all of which are within the cutoff; `untouched` if no treatment of the cutoff reaches any.
+    /// Where few places stand for all bonds.
+    #[inline(always)]
+    fn is_hardly_bent(&self, simd: L, few: &Few) -> Mask<L> {
+        let [a, b, c] = self.gaps;
+        let [least, most] = few.squared_lengths;
+        let mut excluded = Mask::all(simd, false);
+        for edge in [b - a, c - a, c - b] {
+            excluded = excluded.or(edge.squared().is_above(few.squared_bend));
+        }
+        for patch in 0..3 {
+            for corner in 0..3 {
+                let squared = self.corner(patch, corner).squared();
+                excluded = excluded.or(squared.is_below(least)).or(squared.is_above(most));
+            }
+        }
+        excluded.not()
+    }
+
+    /// The sum over all bonds, all of which are within the cutoff; `untouched` if no treatment of the cutoff reaches any. `few`
+    /// are places that stand for all bonds where these are hardly bent.
     #[inline(always)]
     pub fn sum<S: PairShape, const MEASURED: bool>(
         &self,
         simd: L,
         law: &CutPotential<S>,
         untouched: bool,
+        few: Option<&Few>,
     ) -> (FaceForces<L>, Held<L, MEASURED>) {
-        let zero = Lanes::all(simd, 0.0);
-        let one = Lanes::all(simd, 1.0);
         let steps = self.size - 2;
         let per_step = 1.0 / f64::from(steps);
         let along = [
             (self.gaps[1] - self.gaps[0]).scaled(per_step),
             (self.gaps[2] - self.gaps[0]).scaled(per_step),
         ];
+        let few = few
+            .map(|few| (few, self.is_hardly_bent(simd, few)))
+            .filter(|(_, mask)| mask.any());
+        let all_few = few.is_some_and(|(_, mask)| mask.every());
         let mut held = Held::new(simd);
         // What pulls at T_i, and at O_b along the bonds of its own patch.
         let mut shares = [Vector::zero(simd); 3];
         let mut own = [Vector::zero(simd); 3];
         for patch in 0..3 {
             let start = self.corner(patch, 0);
-            let [mut whole, mut first, mut second] = [zero; 3];
-            let [mut both_first, mut mixed, mut both_second] = [zero; 3];
-            for q in 0..=steps {
-                let row = along[1].scaled_add(f64::from(q), start);
-                let [mut row_whole, mut row_first, mut row_square] = [zero; 3];
-                for p in 0..=steps - q {
-                    let at = f64::from(p);
-                    let bond = along[0].scaled_add(at, row);
-                    let squared = bond.squared();
-                    let slope = if MEASURED || !untouched {
-                        let values = law.values(simd, squared);
-                        if MEASURED {
-                            held.add(values, bond, within(simd, law, squared), one);
-                        }
-                        values[1]
-                    } else {
-                        law.untouched_slopes(simd, squared)
-                    };
-                    row_whole = row_whole + slope;
-                    row_first = slope.times_add(at, row_first);
-                    row_square = slope.times_add(at * at, row_square);
-                }
-                let q = f64::from(q);
-                whole = whole + row_whole;
-                first = first + row_first;
-                both_first = both_first + row_square;
-                second = row_whole.times_add(q, second);
-                mixed = row_first.times_add(q, mixed);
-                both_second = row_whole.times_add(q * q, both_second);
+            let mut of_patch = Held::<L, MEASURED>::new(simd);
+            let mut moments = Moments::new(simd);
+            if !all_few {
+                moments = sum_all(simd, law, steps, start, along, untouched, &mut of_patch);
             }
+            if let Some((few, mask)) = few {
+                let mut of_few = Held::<L, MEASURED>::new(simd);
+                let by_few = sum_few(simd, law, &few.samples, start, along, &mut of_few);
+                moments = by_few.where_or(mask, moments);
+                of_patch = of_few.where_or(mask, of_patch);
+            }
+            held.join(of_patch);
+            let Moments {
+                whole,
+                first,
+                second,
+                both_first,
+                mixed,
+                both_second,
+            } = moments;
             let force = along[1].times_add(second, along[0].times_add(first, start.times(whole)));
             let of_first = along[1].times_add(mixed, along[0].times_add(both_first, start.times(first)));
             let of_second = along[1].times_add(both_second, along[0].times_add(mixed, start.times(second)));
@@ -166,4 +180,121 @@ impl<L: Simd> Face<L> {
         };
         (forces, held)
     }
+}
+
+/// Sums over a patch of phi'/r, times the place p and q of the bond in steps from the first corner: 1, p, q, p p, p q, q q.
+#[derive(Clone, Copy)]
+struct Moments<L: Simd> {
+    whole: Lanes<L>,
+    first: Lanes<L>,
+    second: Lanes<L>,
+    both_first: Lanes<L>,
+    mixed: Lanes<L>,
+    both_second: Lanes<L>,
+}
+
+impl<L: Simd> Moments<L> {
+    #[inline(always)]
+    fn new(simd: L) -> Self {
+        let zero = Lanes::all(simd, 0.0);
+        Self {
+            whole: zero,
+            first: zero,
+            second: zero,
+            both_first: zero,
+            mixed: zero,
+            both_second: zero,
+        }
+    }
+
+    #[inline(always)]
+    fn where_or(self, mask: Mask<L>, other: Self) -> Self {
+        Self {
+            whole: self.whole.where_or(mask, other.whole),
+            first: self.first.where_or(mask, other.first),
+            second: self.second.where_or(mask, other.second),
+            both_first: self.both_first.where_or(mask, other.both_first),
+            mixed: self.mixed.where_or(mask, other.mixed),
+            both_second: self.both_second.where_or(mask, other.both_second),
+        }
+    }
+}
+
+/// Every bond of a patch.
+#[inline(always)]
+fn sum_all<S: PairShape, L: Simd, const MEASURED: bool>(
+    simd: L,
+    law: &CutPotential<S>,
+    steps: i32,
+    start: Vector<L>,
+    along: [Vector<L>; 2],
+    untouched: bool,
+    held: &mut Held<L, MEASURED>,
+) -> Moments<L> {
+    let one = Lanes::all(simd, 1.0);
+    let mut sums = Moments::new(simd);
+    for q in 0..=steps {
+        let row = along[1].scaled_add(f64::from(q), start);
+        let [mut whole, mut first, mut square] = [Lanes::all(simd, 0.0); 3];
+        for p in 0..=steps - q {
+            let at = f64::from(p);
+            let bond = along[0].scaled_add(at, row);
+            let squared = bond.squared();
+            let slope = if MEASURED || !untouched {
+                let values = law.values(simd, squared);
+                if MEASURED {
+                    held.add(values, bond, within(simd, law, squared), one);
+                }
+                values[1]
+            } else {
+                law.untouched_slopes(simd, squared)
+            };
+            whole = whole + slope;
+            first = slope.times_add(at, first);
+            square = slope.times_add(at * at, square);
+        }
+        let q = f64::from(q);
+        sums.whole = sums.whole + whole;
+        sums.first = sums.first + first;
+        sums.both_first = sums.both_first + square;
+        sums.second = whole.times_add(q, sums.second);
+        sums.mixed = first.times_add(q, sums.mixed);
+        sums.both_second = whole.times_add(q * q, sums.both_second);
+    }
+    sums
+}
+
+/// A few places of a patch, none of which any treatment of the cutoff reaches.
+#[inline(always)]
+fn sum_few<S: PairShape, L: Simd, const MEASURED: bool>(
+    simd: L,
+    law: &CutPotential<S>,
+    samples: &[Sample],
+    start: Vector<L>,
+    along: [Vector<L>; 2],
+    held: &mut Held<L, MEASURED>,
+) -> Moments<L> {
+    let mut sums = Moments::new(simd);
+    for sample in samples {
+        let [p, q] = sample.at;
+        let bond = along[0].scaled_add(p, along[1].scaled_add(q, start));
+        let squared = bond.squared();
+        let slope = if MEASURED {
+            let values = law.values(simd, squared);
+            let weight = Lanes::all(simd, sample.weight);
+            held.add(values, bond, within(simd, law, squared), weight);
+            values[1]
+        } else {
+            law.untouched_slopes(simd, squared)
+        };
+        let slope = slope * sample.weight;
+        let [of_first, of_second] = [slope * p, slope * q];
+        sums.whole = sums.whole + slope;
+        sums.first = sums.first + of_first;
+        sums.second = sums.second + of_second;
+        sums.both_first = of_first.times_add(p, sums.both_first);
+        sums.mixed = of_first.times_add(q, sums.mixed);
+        sums.both_second = of_second.times_add(q, sums.both_second);
+    }
+    sums
 }

@@ -19,6 +19,12 @@ impl Forces {
         let interaction = &self.material.interaction;
         let shortest = self.shortest_bond(position).min(self.material.spacing);
         let stiffer = interaction.curvature(shortest) / interaction.curvature(self.material.spacing);
+        let stiffer = self.domain.ranks().largest(stiffer);
+        let at_rest = self.frequency_at_rest.get_or_init(|| self.squared_frequency_at_rest());
+        at_rest * stiffer.max(1.0)
+    }
+
+    fn squared_frequency_at_rest(&self) -> f64 {
         // Where parts border on other parts of their size alone, the ends of a bond across a face may share it unevenly.
         let is_uniform = self.interfaces.lonely.iter().all(|side| side.is_free) && self.mesh.atom_count() == 0;
         let mut sizes: Vec<i32> = self.classes.keys().map(|&(_, size)| size).collect();
@@ -27,7 +33,7 @@ impl Forces {
         let of_parts = sizes.into_iter().map(|size| self.of_block(size, is_uniform));
         let has_atoms = self.mesh.atom_count() > 0;
         let of_atoms = has_atoms.then(|| self.at_rest(Shape::Atom, 1, 2.0));
-        of_parts.chain(of_atoms).fold(0.0, f64::max) * stiffer.max(1.0)
+        of_parts.chain(of_atoms).fold(0.0, f64::max)
     }
 
     /// The largest eigenvalue of the parts of a block. A bond between two elements stores no more than (1 + t) times what one
@@ -107,11 +113,12 @@ impl Forces {
         largest / (element.lumped_mass() * self.material.site_mass)
     }
 
-    /// The shortest of all bonds, nm: inside parts and across intact interfaces from the bonds of classes, among points from
+    /// The shortest bond of this rank, nm: inside parts and across intact interfaces from the bonds of classes, among points from
     /// their lists.
     fn shortest_bond(&self, position: &super::Planes) -> f64 {
         let mut least = f64::INFINITY;
-        for (part, element) in self.mesh.elements[..self.mesh.parts].iter().enumerate() {
+        for part in self.domain.grouped() {
+            let element = self.mesh.elements[part];
             let nodes: Vec<[f64; 3]> = self
                 .mesh
                 .nodes_of(part)

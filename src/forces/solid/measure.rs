@@ -92,23 +92,28 @@ impl<L: Simd, const MEASURED: bool> Held<L, MEASURED> {
         [energy, pairs, normal.x, normal.y, normal.z, shear.x, shear.y, shear.z]
     }
 
-    /// The same where a mask says yes, nothing elsewhere.
+    /// The same where a mask says yes, the other elsewhere.
     #[inline(always)]
-    pub fn where_or_nothing(self, simd: L, mask: Mask<L>) -> Self {
-        let zero = Lanes::all(simd, 0.0);
-        let kept = |vector: Vector<L>| Vector {
-            x: vector.x.where_or(mask, zero),
-            y: vector.y.where_or(mask, zero),
-            z: vector.z.where_or(mask, zero),
-        };
+    pub fn where_or(self, mask: Mask<L>, other: Self) -> Self {
         match MEASURED {
             false => self,
             true => Self {
-                energy: self.energy.where_or(mask, zero),
-                pairs: self.pairs.where_or(mask, zero),
-                normal: kept(self.normal),
-                shear: kept(self.shear),
+                energy: self.energy.where_or(mask, other.energy),
+                pairs: self.pairs.where_or(mask, other.pairs),
+                normal: self.normal.where_or(mask, other.normal),
+                shear: self.shear.where_or(mask, other.shear),
             },
+        }
+    }
+
+    /// Takes in what others have found.
+    #[inline(always)]
+    pub fn join(&mut self, other: Self) {
+        if MEASURED {
+            self.energy = self.energy + other.energy;
+            self.pairs = self.pairs + other.pairs;
+            self.normal = self.normal + other.normal;
+            self.shear = self.shear + other.shear;
         }
     }
 

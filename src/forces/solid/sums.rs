@@ -94,6 +94,7 @@ impl Forces {
             law: *law,
             mesh: &self.mesh,
             classes: &self.classes,
+            few: &self.few,
             intact: &self.intact,
             position,
         };

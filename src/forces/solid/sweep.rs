@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use pulp::{Simd, WithSimd};
 
+use super::certified::Few;
 use super::edges::{Edges, string_below};
 use super::faces::Face;
 use super::inside::{self, Class};
@@ -73,6 +74,8 @@ pub struct Field<'a, S> {
     pub law: CutPotential<S>,
     pub mesh: &'a Solid,
     pub classes: &'a HashMap<(Shape, i32), Vec<Class>>,
+    /// Places that stand for all bonds of patches between parts of blocks of a size.
+    pub few: &'a HashMap<i32, Few>,
     /// One for each interface that is intact, zero for others.
     pub intact: &'a [f64],
     pub position: &'a [Vec<f64>; 3],
@@ -192,6 +195,7 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
         let limits = [law.squared_cutoff(), law.squared_untouched()];
         let limit = law.squared_cutoff();
         let size = groups[0].size;
+        let few = self.field.few.get(&size);
         let mut at = 0;
         while at < run.len {
             let count = Lanes::<L>::COUNT.min(run.len - at);
@@ -217,7 +221,7 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                         continue;
                     }
                     let untouched = !touched.and(intact).any();
-                    let (forces, held) = face.sum::<S, MEASURED>(simd, &law, untouched);
+                    let (forces, held) = face.sum::<S, MEASURED>(simd, &law, untouched, few);
                     if is_mine[0] {
                         let forces = where_intact(simd, forces.on_tetrahedron, intact);
                         self.add(groups[0], parts[0], tetrahedron, forces, count);
@@ -285,7 +289,7 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
         is_mine: [bool; 2],
         count: usize,
     ) {
-        let held = held.where_or_nothing(simd, intact);
+        let held = held.where_or(intact, Held::new(simd));
         for (part, is_mine) in parts.into_iter().zip(is_mine) {
             if is_mine {
                 held.add_half_to(&mut self.held, part - self.tile.elements.start, count);
@@ -307,14 +311,9 @@ fn tell<L: Simd>(lost: Mask<L>, number: usize, count: usize, irregular: &mut Vec
 
 #[inline(always)]
 fn where_intact<L: Simd, const N: usize>(simd: L, forces: [Vector<L>; N], intact: Mask<L>) -> [Vector<L>; N] {
-    let zero = Lanes::all(simd, 0.0);
     let mut kept = forces;
     for force in &mut kept {
-        *force = Vector {
-            x: force.x.where_or(intact, zero),
-            y: force.y.where_or(intact, zero),
-            z: force.z.where_or(intact, zero),
-        };
+        *force = force.where_or(intact, Vector::zero(simd));
     }
     kept
 }

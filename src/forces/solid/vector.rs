@@ -4,7 +4,7 @@ use std::ops::{Add, Sub};
 
 use pulp::Simd;
 
-use crate::lanes::Lanes;
+use crate::lanes::{Lanes, Mask};
 
 #[derive(Clone, Copy)]
 pub struct Vector<L: Simd> {
@@ -48,6 +48,16 @@ impl<L: Simd> Vector<L> {
         let simd = self.x.simd();
         let present = Self::load(simd, [planes[0], planes[1], planes[2]], from, count);
         (present + self).store(planes, from, count);
+    }
+
+    /// The vectors where a mask says yes, those of the other elsewhere.
+    #[inline(always)]
+    pub fn where_or(self, mask: Mask<L>, other: Self) -> Self {
+        Self {
+            x: self.x.where_or(mask, other.x),
+            y: self.y.where_or(mask, other.y),
+            z: self.z.where_or(mask, other.z),
+        }
     }
 
     /// self times a factor

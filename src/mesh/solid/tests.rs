@@ -237,7 +237,7 @@ fn opposite_corners_of_a_border_are_neighbours() {
             }
             Contact::Edges { first, second } => (0..2).for_each(|end| assert_eq!(squared(first[end], second[end]), 1)),
             Contact::FarEdges { first, second } => {
-                (0..2).for_each(|end| assert_eq!(squared(first[end], second[end]), 2))
+                (0..2).for_each(|end| assert_eq!(squared(first[end], second[end]), 2));
             }
             Contact::Tips { first, second } => assert_eq!(squared(first, second), 2),
         }

@@ -12,7 +12,7 @@ fn nothing_has_moved_in_the_first_picture_and_what_moves_then_goes_with_the_grip
     let place = Workspace::new();
     place.cgaft("run", &[]).succeeded();
     for case in ["coarse", "mixed", "atoms"] {
-        let (mesh, frames) = read_fields(&place.case(case).join(FIELDS_FILE)).unwrap();
+        let (mesh, frames) = read_fields::<[f64; 2]>(&place.case(case).join(FIELDS_FILE)).unwrap();
         let first = frames.frame(0).unwrap();
         let still = first.displacement.iter().flatten().all(|moved| moved.abs() < ROUNDING);
         assert!(still, "{case}: it has moved at the start");

@@ -43,7 +43,7 @@ impl Observer for First {
     type Error = Infallible;
     fn probe(&mut self, reading: &Reading) -> Result<(), Infallible> {
         if self.probe.is_none() {
-            self.probe = Some(*reading.probe);
+            self.probe = Some(reading.probe);
             self.profile = reading.profile.to_vec();
             self.gauges = reading.gauges.to_vec();
         }

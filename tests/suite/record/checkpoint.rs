@@ -1,12 +1,18 @@
 use std::fs;
+use std::path::Path;
 
 use cgaft::record::{RecordError, checkpoint};
+use cgaft::solver::checkpoint::Checkpoint;
 use tempfile::tempdir;
 
 use super::checkpoint as some_checkpoint;
 
 /// A cut or a flipped bit is tried this often, bytes; the header alone holds eight such places.
 const STRIDE: usize = 64;
+
+fn read(path: &Path, case_id: &str) -> Result<Checkpoint, RecordError> {
+    checkpoint::read(path, case_id)
+}
 
 #[test]
 fn a_checkpoint_reads_back_to_the_bit() {
@@ -19,7 +25,7 @@ fn a_checkpoint_reads_back_to_the_bit() {
     written.peak_work = signalling;
     checkpoint::write(&path, "abc", &written).unwrap();
 
-    let mut read = checkpoint::read(&path, "abc").unwrap();
+    let mut read = read(&path, "abc").unwrap();
     assert_eq!(read.velocity[1][3].to_bits(), quiet_with_payload.to_bits());
     assert_eq!(read.peak_work.to_bits(), signalling.to_bits());
     for checkpoint in [&mut read, &mut written] {
@@ -33,8 +39,9 @@ fn a_checkpoint_reads_back_to_the_bit() {
 fn an_empty_checkpoint_reads_back() {
     let dir = tempdir().unwrap();
     let path = dir.path().join("checkpoint.h5");
-    checkpoint::write(&path, "", &Default::default()).unwrap();
-    assert_eq!(checkpoint::read(&path, "").unwrap(), Default::default());
+    let empty: Checkpoint = Checkpoint::default();
+    checkpoint::write(&path, "", &empty).unwrap();
+    assert_eq!(read(&path, "").unwrap(), empty);
 }
 
 #[test]
@@ -45,7 +52,7 @@ fn a_checkpoint_cut_anywhere_is_refused() {
     let whole = fs::read(&path).unwrap();
     for length in (0..whole.len()).step_by(STRIDE).chain([whole.len() - 1]) {
         fs::write(&path, &whole[..length]).unwrap();
-        let error = checkpoint::read(&path, "abc").unwrap_err();
+        let error = read(&path, "abc").unwrap_err();
         assert!(matches!(error, RecordError::Damaged { .. }), "cut at {length}: {error}");
     }
 }
@@ -62,7 +69,7 @@ fn a_checkpoint_with_any_byte_changed_is_refused() {
         let mut changed = whole.clone();
         changed[place] ^= 1;
         fs::write(&path, &changed).unwrap();
-        assert!(checkpoint::read(&path, "abc").is_err(), "byte {place} changed");
+        assert!(read(&path, "abc").is_err(), "byte {place} changed");
     }
 }
 
@@ -75,20 +82,17 @@ fn a_failed_write_keeps_the_checkpoint_before() {
     fs::create_dir(dir.path().join("checkpoint.h5.tmp")).unwrap();
     let error = checkpoint::write(&path, "abc", &some_checkpoint(60)).unwrap_err();
     assert!(error.is_write_failure(), "{error}");
-    assert_eq!(checkpoint::read(&path, "abc").unwrap(), some_checkpoint(50));
+    assert_eq!(read(&path, "abc").unwrap(), some_checkpoint(50));
 }
 
 #[test]
 fn each_wrong_checkpoint_has_its_own_error() {
     let dir = tempdir().unwrap();
     let path = dir.path().join("checkpoint.h5");
-    assert!(matches!(
-        checkpoint::read(&path, "abc"),
-        Err(RecordError::Absent { .. })
-    ));
+    assert!(matches!(read(&path, "abc"), Err(RecordError::Absent { .. })));
 
     checkpoint::write(&path, "abc", &some_checkpoint(5)).unwrap();
-    let error = checkpoint::read(&path, "xyz").unwrap_err();
+    let error = read(&path, "xyz").unwrap_err();
     assert!(
         error.to_string().contains("belongs to case abc, not to case xyz"),
         "{error}"
@@ -99,17 +103,14 @@ fn each_wrong_checkpoint_has_its_own_error() {
     assert!(bytes.starts_with(b"cgaft checkpoint 7\n"));
     bytes[17] = b'0';
     fs::write(&path, &bytes).unwrap();
-    let error = checkpoint::read(&path, "abc").unwrap_err();
+    let error = read(&path, "abc").unwrap_err();
     assert!(
         matches!(&error, RecordError::OtherFormat { found, readable: 7, .. } if found == "0"),
         "{error}"
     );
 
     fs::write(&path, "step,time\n1,2\n").unwrap();
-    assert!(matches!(
-        checkpoint::read(&path, "abc"),
-        Err(RecordError::NotOurs { .. })
-    ));
+    assert!(matches!(read(&path, "abc"), Err(RecordError::NotOurs { .. })));
 }
 
 #[test]

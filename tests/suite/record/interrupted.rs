@@ -8,6 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Child, Command, Stdio};
 use std::time::Duration;
 
+use cgaft::analysis::series::Series;
 use cgaft::record::{
     CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE, checkpoint, cut_back, publish_fields, publish_series,
     write_frame, write_segment,
@@ -134,7 +135,7 @@ fn publishing_that_is_killed_anywhere_can_be_repeated() {
         let dir = tempdir().unwrap();
         write_pieces(dir.path());
         let done = kill_after(delay, "publishing_that_is_killed_anywhere_can_be_repeated", dir.path());
-        cut_back(dir.path(), Some(LAST_STEP)).unwrap();
+        cut_back::<Series>(dir.path(), Some(LAST_STEP)).unwrap();
         publish(dir.path()).unwrap();
         assert!(
             published(dir.path()) == whole,
@@ -162,7 +163,7 @@ fn a_checkpoint_is_whole_whenever_its_writer_is_killed() {
         let read = checkpoint::read(&path, "abc").unwrap();
         assert_eq!(read, some_checkpoint(read.position[0].len() as u64));
         // The next run removes what was half written.
-        cut_back(dir.path(), Some(read.step)).unwrap();
+        cut_back::<Series>(dir.path(), Some(read.step)).unwrap();
         assert_eq!(fs::read_dir(dir.path()).unwrap().count(), 1);
     }
 }

@@ -15,7 +15,7 @@ const VTK_VERTEX: u64 = 1;
 const VTK_TRIANGLE: u64 = 5;
 
 /// What a script of `tests/python` prints about a file.
-fn ask_python(script: &str, file: &Path) -> Value {
+pub fn ask_python(script: &str, file: &Path) -> Value {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let python =
         std::env::var_os("CGAFT_TEST_PYTHON").map_or_else(|| root.join("target/python/bin/python"), PathBuf::from);
@@ -38,7 +38,7 @@ fn ask_python(script: &str, file: &Path) -> Value {
 }
 
 /// What a published file says of itself.
-fn attributes() -> Value {
+pub fn attributes() -> Value {
     json!({
         "case": "1f",
         "program": concat!("cgaft ", env!("CARGO_PKG_VERSION")),
@@ -56,7 +56,7 @@ fn vtk_reads_every_time_step_of_the_fields() {
     publish_fields(dir.path(), "1f", &mesh).unwrap();
     let path = dir.path().join(FIELDS_FILE);
     let seen = ask_python("read_fields.py", &path);
-    let (_, frames) = read_fields(&path).unwrap();
+    let (_, frames) = read_fields::<[f64; 2]>(&path).unwrap();
 
     assert_eq!(seen["attributes"], attributes());
     assert_eq!(seen["times"], json!(frames.times()));
@@ -109,7 +109,7 @@ fn vtk_reads_every_time_step_of_the_fields() {
 }
 
 /// A number as the file holds it.
-fn single(number: f64) -> f64 {
+pub fn single(number: f64) -> f64 {
     f64::from(number as f32)
 }
 

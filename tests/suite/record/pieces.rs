@@ -1,6 +1,7 @@
 use std::fs;
 use std::path::Path;
 
+use cgaft::analysis::series::Series;
 use cgaft::analysis::series::{CrackFrom, Setting};
 use cgaft::record::{
     FIELDS_FILE, RecordError, SERIES_FILE, cut_back, publish_fields, publish_series, read_fields, read_segments,
@@ -42,7 +43,7 @@ fn segments_read_back_as_one_series_to_the_bit() {
 #[test]
 fn a_stretch_without_probes_leaves_no_file() {
     let dir = tempdir().unwrap();
-    write_segment(dir.path(), 7, &Default::default()).unwrap();
+    write_segment(dir.path(), 7, &Series::default()).unwrap();
     assert_eq!(names(dir.path()), Vec::<String>::new());
 }
 
@@ -51,7 +52,10 @@ fn a_missing_segment_is_a_gap() {
     let dir = tempdir().unwrap();
     write_segment(dir.path(), 0, &series(0..5, 4)).unwrap();
     write_segment(dir.path(), 6, &series(6..9, 4)).unwrap();
-    assert!(matches!(read_segments(dir.path()), Err(RecordError::Gap { .. })));
+    assert!(matches!(
+        read_segments::<Series>(dir.path()),
+        Err(RecordError::Gap { .. })
+    ));
     assert!(matches!(
         publish_series(dir.path(), "1f", &setting(None)),
         Err(RecordError::Gap { .. })
@@ -68,9 +72,9 @@ fn cutting_back_keeps_everything_up_to_the_checkpoint() {
     }
     fs::write(dir.path().join("notes.tmp"), "not ours").unwrap();
 
-    cut_back(dir.path(), Some(90)).unwrap();
+    cut_back::<Series>(dir.path(), Some(90)).unwrap();
     assert_same_series(&read_segments(dir.path()).unwrap(), &series(0..10, 4));
-    cut_back(dir.path(), Some(40)).unwrap();
+    cut_back::<Series>(dir.path(), Some(40)).unwrap();
     assert_same_series(&read_segments(dir.path()).unwrap(), &series(0..5, 4));
     let left = [
         "frame-0000000000000000.h5",
@@ -85,7 +89,7 @@ fn cutting_back_keeps_everything_up_to_the_checkpoint() {
 fn cutting_back_into_a_segment_keeps_its_first_rows() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
-    cut_back(dir.path(), Some(65)).unwrap();
+    cut_back::<Series>(dir.path(), Some(65)).unwrap();
     assert_same_series(&read_segments(dir.path()).unwrap(), &series(0..7, 4));
     // The run goes on from there and writes the same rows again.
     write_segment(dir.path(), 7, &series(7..12, 4)).unwrap();
@@ -98,7 +102,7 @@ fn cutting_back_to_nothing_removes_everything_recorded() {
     write_pieces(dir.path());
     publish_series(dir.path(), "1f", &setting(None)).unwrap();
     fs::write(dir.path().join("case.yaml"), "kept").unwrap();
-    cut_back(dir.path(), None).unwrap();
+    cut_back::<Series>(dir.path(), None).unwrap();
     assert_eq!(names(dir.path()), ["case.yaml"]);
 }
 
@@ -107,8 +111,11 @@ fn a_run_published_past_its_checkpoint_is_not_cut_silently() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
     publish_series(dir.path(), "1f", &setting(None)).unwrap();
-    cut_back(dir.path(), Some(90)).unwrap();
-    assert!(matches!(cut_back(dir.path(), Some(80)), Err(RecordError::Gap { .. })));
+    cut_back::<Series>(dir.path(), Some(90)).unwrap();
+    assert!(matches!(
+        cut_back::<Series>(dir.path(), Some(80)),
+        Err(RecordError::Gap { .. })
+    ));
 }
 
 #[test]
@@ -124,7 +131,7 @@ fn a_published_series_reads_back_to_the_bit() {
         let dir = tempdir().unwrap();
         write_pieces(dir.path());
         publish_series(dir.path(), "1f", &written).unwrap();
-        let (read_setting, read) = read_series(&dir.path().join(SERIES_FILE)).unwrap();
+        let (read_setting, read) = read_series::<Setting>(&dir.path().join(SERIES_FILE)).unwrap();
         assert_eq!(read_setting, written);
         assert_same_series(&read, &series(0..10, 4));
     }
@@ -135,7 +142,7 @@ fn published_fields_read_back_frame_by_frame() {
     let dir = tempdir().unwrap();
     write_pieces(dir.path());
     publish_fields(dir.path(), "1f", &mesh(3)).unwrap();
-    let (read_mesh, frames) = read_fields(&dir.path().join(FIELDS_FILE)).unwrap();
+    let (read_mesh, frames) = read_fields::<[f64; 2]>(&dir.path().join(FIELDS_FILE)).unwrap();
     assert_eq!(read_mesh, mesh(3));
     assert_eq!(frames.steps(), [0, 40, 80]);
     assert_eq!(frames.times(), [0, 40, 80].map(|step| frame(step, &mesh(3)).time));
@@ -186,7 +193,7 @@ fn publishing_is_repeatable_when_killed_while_removing_pieces() {
     fs::remove_file(killed.path().join("frame-0000000000000000.h5")).unwrap();
     fs::remove_file(killed.path().join("series-0000000000000000-0000000000000040.h5")).unwrap();
 
-    cut_back(killed.path(), Some(90)).unwrap();
+    cut_back::<Series>(killed.path(), Some(90)).unwrap();
     publish_series(killed.path(), "1f", &setting(None)).unwrap();
     publish_fields(killed.path(), "1f", &mesh(3)).unwrap();
     assert_eq!(names(killed.path()), [FIELDS_FILE, SERIES_FILE]);
@@ -222,7 +229,7 @@ fn a_run_without_frames_publishes_no_pictures() {
     let dir = tempdir().unwrap();
     publish_fields(dir.path(), "1f", &mesh(3)).unwrap();
     assert!(matches!(
-        read_fields(&dir.path().join(FIELDS_FILE)),
+        read_fields::<[f64; 2]>(&dir.path().join(FIELDS_FILE)),
         Err(RecordError::Absent { .. })
     ));
 }
@@ -263,7 +270,10 @@ fn damaged_pictures_are_an_error() {
     let dir = tempdir().unwrap();
     let path = dir.path().join(FIELDS_FILE);
     fs::write(&path, "not HDF5").unwrap();
-    assert!(matches!(read_fields(&path), Err(RecordError::Damaged { .. })));
+    assert!(matches!(
+        read_fields::<[f64; 2]>(&path),
+        Err(RecordError::Damaged { .. })
+    ));
 }
 
 #[test]

@@ -32,8 +32,8 @@ pub struct Keeper(pub Series);
 impl Observer for Keeper {
     type Error = Infallible;
     fn probe(&mut self, reading: &Reading) -> Result<(), Infallible> {
-        self.0.probes.push(*reading.probe);
-        self.0.bonds.extend_from_slice(reading.bonds);
+        self.0.probes.push(reading.probe);
+        self.0.bonds.extend_from_slice(&reading.bonds);
         Ok(())
     }
     fn snapshot(&mut self, _: &Moment) -> Result<(), Infallible> {

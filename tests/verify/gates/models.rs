@@ -4,6 +4,7 @@ use std::sync::atomic::AtomicBool;
 
 use cgaft::analysis::history::history;
 use cgaft::analysis::series::Series;
+use cgaft::analysis::series::Setting;
 use cgaft::domain::Ranks;
 use cgaft::plan::plan;
 use cgaft::record::{SERIES_FILE, read_series};
@@ -26,7 +27,7 @@ fn a_run_goes_on_for_the_asked_time_after_the_first_branch() {
     let finished =
         run_case(&case, folder.path(), Ranks::alone(), 1, &stop, &mut |_| (), &mut quiet).expect("it runs to its end");
     assert!(matches!(finished.ending, Ending::AfterBranch(_)), "{}", finished.ending);
-    let (setting, series) = read_series(&folder.path().join(SERIES_FILE)).expect("it is published");
+    let (setting, series) = read_series::<Setting>(&folder.path().join(SERIES_FILE)).expect("it is published");
     let has_branched = |probes: usize| {
         let part = Series {
             probes: series.probes[..probes].to_vec(),

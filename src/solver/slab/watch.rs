@@ -1,65 +1,8 @@
-//! When a run has reached its end.
+//! When a crack has come far enough, has come to rest or has left its plane.
 
 use crate::analysis::initiation;
 use crate::analysis::series::Setting;
-
-/// A run stops at whichever of these comes first.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Until {
-    /// Nominal strain.
-    pub strain: Option<f64>,
-    /// ps
-    pub time: Option<f64>,
-    /// From the edge that the crack comes from, or the middle of a notch inside, to the foremost tip, nm.
-    pub crack_length: Option<f64>,
-    /// The crack has set out and then stood still for this long, ps.
-    pub arrest: Option<f64>,
-    /// The crack was first seen to have a branch so long ago, ps.
-    pub after_branch: Option<f64>,
-    /// The crack has left its plane so long ago, ps.
-    pub leaves_plane: Option<f64>,
-}
-
-/// Why a run ended.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Ending {
-    Strain(f64),
-    Time(f64),
-    CrackLength(f64),
-    Arrest(f64),
-    AfterBranch(f64),
-    LeavesPlane(f64),
-    /// Asked to stop; a checkpoint is there.
-    Interrupted,
-}
-
-impl std::fmt::Display for Ending {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        match self {
-            Self::Strain(strain) => write!(f, "strain {:.4} % reached", 100.0 * strain),
-            Self::Time(time) => write!(f, "time {time:.4} ps reached"),
-            Self::CrackLength(tip) => write!(f, "crack length {tip:.3} nm reached"),
-            Self::Arrest(time) => write!(f, "crack stood still for {time:.3} ps"),
-            Self::AfterBranch(time) => write!(f, "crack branched {time:.3} ps ago"),
-            Self::LeavesPlane(time) => write!(f, "crack left its plane {time:.3} ps ago"),
-            Self::Interrupted => write!(f, "interrupted"),
-        }
-    }
-}
-
-impl Until {
-    /// Steps in all if neither the crack nor a change of the time step ends the run otherwise.
-    ///
-    /// `time_of` tells when a nominal strain is reached, ps.
-    pub fn steps(&self, step: u64, time: f64, time_step: f64, time_of: impl FnOnce(f64) -> f64) -> u64 {
-        let end = self
-            .strain
-            .map(time_of)
-            .unwrap_or(f64::INFINITY)
-            .min(self.time.unwrap_or(f64::INFINITY));
-        step.saturating_add(((end - time) / time_step).round().max(0.0) as u64)
-    }
-}
+use crate::solver::until::{Ending, Until};
 
 /// Follows the foremost tip and the damage ahead of it from probe to probe.
 #[derive(Clone, Debug)]
@@ -142,17 +85,9 @@ impl Watch {
         (self.branched, self.left_plane) = (branched, left_plane);
     }
 
-    /// The first reason to stop at this moment; times and strains count within half a step, and a run takes one at least.
-    pub fn ending(&self, until: &Until, time: f64, time_step: f64, strain_at: impl Fn(f64) -> f64) -> Option<Ending> {
-        let soon = time + 0.5 * time_step;
-        let strain_soon = if time > 0.0 { strain_at(soon) } else { 0.0 };
+    /// The first reason to stop at this moment that is the crack's.
+    pub fn ending(&self, until: &Until, time: f64) -> Option<Ending> {
         let set_out = self.farthest > self.notch + self.threshold;
-        if until.strain.is_some_and(|end| strain_soon >= end) {
-            return Some(Ending::Strain(strain_at(time)));
-        }
-        if until.time.is_some_and(|end| soon >= end) {
-            return Some(Ending::Time(time));
-        }
         if until.crack_length.is_some_and(|end| self.farthest >= end) {
             return Some(Ending::CrackLength(self.farthest));
         }
@@ -188,10 +123,6 @@ mod tests {
         Watch::new(&setting)
     }
 
-    fn at_a_thousandth(time: f64) -> f64 {
-        1e-3 * time
-    }
-
     fn setting() -> Setting {
         Setting {
             spacing: 1.0,
@@ -217,29 +148,6 @@ mod tests {
     }
 
     #[test]
-    fn the_strain_and_the_time_count_within_half_a_step() {
-        let until = Until {
-            strain: Some(0.02),
-            time: Some(25.0),
-            ..Until::default()
-        };
-        let watch = watch();
-        assert_eq!(watch.ending(&until, 19.0, 0.2, at_a_thousandth), None);
-        assert_eq!(
-            watch.ending(&until, 19.95, 0.2, at_a_thousandth),
-            Some(Ending::Strain(0.01995))
-        );
-        let until = Until {
-            time: Some(15.0),
-            ..until
-        };
-        assert_eq!(
-            watch.ending(&until, 14.95, 0.2, at_a_thousandth),
-            Some(Ending::Time(14.95))
-        );
-    }
-
-    #[test]
     fn the_crack_length_is_that_of_the_farthest_tip() {
         let until = Until {
             strain: Some(0.5),
@@ -248,13 +156,10 @@ mod tests {
         };
         let mut watch = watch();
         watch.follow(29.0, 29.0, 40.0);
-        assert_eq!(watch.ending(&until, 40.0, 0.2, at_a_thousandth), None);
+        assert_eq!(watch.ending(&until, 40.0), None);
         watch.follow(30.5, 30.5, 41.0);
         watch.follow(20.0, 20.0, 42.0);
-        assert_eq!(
-            watch.ending(&until, 42.0, 0.2, at_a_thousandth),
-            Some(Ending::CrackLength(30.5))
-        );
+        assert_eq!(watch.ending(&until, 42.0), Some(Ending::CrackLength(30.5)));
     }
 
     #[test]
@@ -265,11 +170,11 @@ mod tests {
             ..Until::default()
         };
         let mut watch = watch();
-        assert_eq!(watch.ending(&until, 90.0, 0.2, at_a_thousandth), None);
+        assert_eq!(watch.ending(&until, 90.0), None);
         watch.branch(91.0);
         watch.branch(95.0);
-        assert_eq!(watch.ending(&until, 110.0, 0.2, at_a_thousandth), None);
-        let ending = watch.ending(&until, 111.0, 0.2, at_a_thousandth);
+        assert_eq!(watch.ending(&until, 110.0), None);
+        let ending = watch.ending(&until, 111.0);
         assert_eq!(ending, Some(Ending::AfterBranch(20.0)));
     }
 
@@ -282,17 +187,10 @@ mod tests {
         };
         let mut watch = watch();
         watch.follow(12.9, 12.9, 5.0);
-        assert_eq!(
-            watch.ending(&until, 90.0, 0.2, at_a_thousandth),
-            None,
-            "it only opened some bonds"
-        );
+        assert_eq!(watch.ending(&until, 90.0), None, "it only opened some bonds");
         watch.follow(15.0, 15.0, 91.0);
-        assert_eq!(watch.ending(&until, 100.0, 0.2, at_a_thousandth), None);
-        assert_eq!(
-            watch.ending(&until, 111.0, 0.2, at_a_thousandth),
-            Some(Ending::Arrest(20.0))
-        );
+        assert_eq!(watch.ending(&until, 100.0), None);
+        assert_eq!(watch.ending(&until, 111.0), Some(Ending::Arrest(20.0)));
     }
 
     #[test]
@@ -304,10 +202,10 @@ mod tests {
         let mut watch = watch();
         watch.follow(15.0, 15.0, 91.0);
         watch.follow(15.0, 18.0, 105.0);
-        assert_eq!(watch.ending(&until, 111.0, 0.2, at_a_thousandth), None);
+        assert_eq!(watch.ending(&until, 111.0), None);
         assert_eq!(watch.farthest_tip(), 15.0, "the tip hangs together with the notch");
         watch.follow(17.0, 17.0, 120.0);
-        let ending = watch.ending(&until, 125.0, 0.2, at_a_thousandth);
+        let ending = watch.ending(&until, 125.0);
         assert_eq!(ending, Some(Ending::Arrest(20.0)), "the tip only follows");
     }
 
@@ -319,11 +217,11 @@ mod tests {
             ..Until::default()
         };
         let mut watch = watch();
-        assert_eq!(watch.ending(&until, 90.0, 0.2, at_a_thousandth), None);
+        assert_eq!(watch.ending(&until, 90.0), None);
         watch.leave_plane(91.0);
         watch.leave_plane(95.0);
-        assert_eq!(watch.ending(&until, 140.0, 0.2, at_a_thousandth), None);
-        let ending = watch.ending(&until, 141.0, 0.2, at_a_thousandth);
+        assert_eq!(watch.ending(&until, 140.0), None);
+        let ending = watch.ending(&until, 141.0);
         assert_eq!(ending, Some(Ending::LeavesPlane(50.0)));
         let mut resumed = super::tests::watch();
         resumed.restore(
@@ -331,6 +229,6 @@ mod tests {
             [watch.farthest_tip(), watch.front()],
             [watch.branched(), watch.left_plane()],
         );
-        assert_eq!(resumed.ending(&until, 141.0, 0.2, at_a_thousandth), ending);
+        assert_eq!(resumed.ending(&until, 141.0), ending);
     }
 }

@@ -1,12 +1,12 @@
 //! What the first rank reads in a probe of elements that others compute.
 
-use super::Solver;
+use super::Slab;
 use super::gauges::Gauges;
 use super::j_integral::Rings;
 use super::probe::ProfileLine;
 use super::traction::Traction;
 use crate::domain::{Halo, Of};
-use crate::loading::Stretching;
+use crate::loading::{Load, Stretching};
 use crate::mesh::Mesh;
 use crate::state::State;
 
@@ -26,17 +26,19 @@ impl Sight {
     }
 }
 
-impl Solver {
+impl Slab {
     /// Brings to the first rank what it reads of others in a probe: the whole state would take longer than some steps.
-    pub(super) fn bring_into_sight(&mut self, rings: Option<Rings>) {
+    pub(super) fn bring_into_sight(&mut self, state: &mut State, rings: Option<Rings>) {
         let domain = self.forces.domain();
         if domain.ranks().count() == 1 {
             return;
         }
         let mut seen = Vec::new();
         if domain.ranks().is_first() {
-            let around_tip = rings.map(|rings| self.j_integral.elements_read(self.forces.mesh(), &rings));
-            seen = [&self.sight.0, &around_tip.unwrap_or_default()[..]].concat();
+            let integral = self.probes.j_integral.as_ref();
+            let around_tip = rings.zip(integral);
+            let around_tip = around_tip.map(|(rings, integral)| integral.elements_read(self.forces.mesh(), &rings));
+            seen = [&self.probes.sight.0, &around_tip.unwrap_or_default()[..]].concat();
             seen.retain(|&element| !domain.is_mine(element as usize));
             seen.sort_unstable();
             seen.dedup();
@@ -47,15 +49,13 @@ impl Solver {
             velocity,
             force,
             ..
-        } = &mut self.state;
+        } = &mut *state;
         let [[x, y], [velocity_x, velocity_y], [force_x, force_y]] =
             [position, velocity, force].map(|planes| planes.each_mut().map(Vec::as_mut_slice));
         parcels.bring(domain, Of::Nodes, [x, y, velocity_x, velocity_y, force_x, force_y]);
         self.measure.bring(&mut parcels, domain);
         // The thermometer reads all atoms.
-        self.state
-            .velocity
-            .iter_mut()
-            .for_each(|plane| domain.gather_atoms(plane));
+        let velocities = state.velocity.iter_mut();
+        velocities.for_each(|plane| domain.gather_atoms(plane));
     }
 }

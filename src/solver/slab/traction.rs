@@ -113,13 +113,13 @@ impl Site {
 
 #[cfg(test)]
 mod tests {
+    use super::super::setting::setting;
     use super::*;
     use crate::forces::Forces;
     use crate::mesh::Plan;
     use crate::mesh::region::{Region, Shape};
     use crate::mesh::sites::Layout;
     use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
-    use crate::solver::setting::setting;
 
     /// Rounding of sums of some hundred bonds.
     const ROUNDING: f64 = 1e-9;

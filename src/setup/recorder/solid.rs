@@ -1,0 +1,160 @@
+//! What of a solid goes into the folder of its run.
+
+use std::borrow::Cow;
+use std::path::Path;
+
+use super::{Recorded, collected};
+use crate::analysis::columns::{Columns, SolidSetting};
+use crate::mesh::solid::Solid as Mesh;
+use crate::mesh::solid::element::Shape;
+use crate::record::frames::FieldMesh;
+use crate::record::{self, Picture, RecordError};
+use crate::solver::solid::Row;
+use crate::solver::{Instruments, Moment, Solid};
+
+impl Recorded<3> for Solid {
+    type Setting = SolidSetting;
+    type Vector = [f64; 3];
+
+    fn setting(&self) -> SolidSetting {
+        self.setting().clone()
+    }
+
+    fn no_rows(&self) -> Columns {
+        self.columns()
+    }
+
+    fn add_row(rows: &mut Columns, reading: &Row) {
+        rows.push(reading.step, &reading.numbers);
+    }
+
+    fn field_mesh(&self) -> FieldMesh<[f64; 3]> {
+        field_mesh(self.mesh())
+    }
+
+    fn write_frame(folder: &Path, moment: &Moment<Self, 3>, site_volume: f64) -> Result<(), RecordError> {
+        record::write_frame(folder, &Snapshot { moment, site_volume })
+    }
+
+    fn site_volume(&self) -> f64 {
+        self.setting().volume / self.setting().represented_atoms as f64
+    }
+}
+
+/// A moment as a picture shows it.
+struct Snapshot<'a> {
+    moment: &'a Moment<'a, Solid, 3>,
+    site_volume: f64,
+}
+
+impl Snapshot<'_> {
+    /// The elements of the cells.
+    fn elements(&self) -> impl Iterator<Item = usize> {
+        let elements = self.moment.mesh.elements.iter().enumerate();
+        elements.flat_map(|(number, element)| std::iter::repeat_n(number, cells(element.shape).len()))
+    }
+}
+
+impl Picture<[f64; 3]> for Snapshot<'_> {
+    fn moment(&self) -> (u64, f64, f64) {
+        (self.moment.step, self.moment.time, self.moment.strain)
+    }
+
+    fn displacement(&self) -> Cow<'_, [[f64; 3]]> {
+        let Moment { mesh, state, .. } = self.moment;
+        let [now, then] = [&state.position, &mesh.node_positions()];
+        let of_node = |node: usize| [0, 1, 2].map(|axis| now[axis][node] - then[axis][node]);
+        Cow::Owned((0..state.nodes()).map(of_node).collect())
+    }
+
+    fn velocity(&self) -> Cow<'_, [[f64; 3]]> {
+        let state = self.moment.state;
+        let of_node = |node: usize| state.velocity.each_ref().map(|plane| plane[node]);
+        Cow::Owned((0..state.nodes()).map(of_node).collect())
+    }
+
+    fn stress(&self) -> Cow<'_, [[f64; 6]]> {
+        let Moment { mesh, measure, .. } = self.moment;
+        let stress = self.elements().map(|number| {
+            let volume = mesh.elements[number].site_count() as f64 * self.site_volume;
+            measure.virial(number).map(|component| component / volume)
+        });
+        Cow::Owned(stress.collect())
+    }
+
+    fn damage(&self) -> Cow<'_, [f64]> {
+        let broken = self.moment.broken;
+        Cow::Owned(self.elements().map(|number| broken[number]).collect())
+    }
+}
+
+/// The cells of a shape by its corners: an octahedron is two pyramids on one square, its corners +U, -U, +V, -V, +W, -W.
+fn cells(shape: Shape) -> &'static [&'static [usize]] {
+    match shape {
+        Shape::Atom => &[&[0]],
+        Shape::Low => &[&[0, 1, 2, 3]],
+        Shape::High => &[&[0, 2, 1, 3]],
+        Shape::Octahedron => &[&[2, 4, 3, 5, 0], &[2, 5, 3, 4, 1]],
+    }
+}
+
+/// Cells and reference positions.
+fn field_mesh(mesh: &Mesh) -> FieldMesh<[f64; 3]> {
+    let [x, y, z] = mesh.node_positions();
+    let mut fields = FieldMesh {
+        points: collected(x.len(), (0..x.len()).map(|node| [x[node], y[node], z[node]])),
+        offsets: vec![0],
+        ..FieldMesh::default()
+    };
+    for (number, element) in mesh.elements.iter().enumerate() {
+        for cell in cells(element.shape) {
+            let nodes = cell.iter().map(|&corner| mesh.node(number, corner) as u32);
+            fields.connectivity.extend(nodes);
+            fields.offsets.push(fields.connectivity.len() as u32);
+            fields.element_size.push(element.size as u32);
+        }
+    }
+    fields
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::solid::Plan;
+    use crate::mesh::solid::sites::{Frame, Outline, Sites};
+
+    #[test]
+    fn cells_are_the_right_way_round_and_fill_as_much_as_their_elements() {
+        let mesh = Mesh::new(&Plan {
+            sites: Sites {
+                outline: Outline::Rhombohedron([6, 6, 6]),
+                frame: Frame::of_blocks(1.0),
+                removed: vec![],
+            },
+            element: 6,
+            regions: vec![],
+            spacing: 1.0,
+        });
+        let fields = field_mesh(&mesh);
+        let volumes = fields.offsets.windows(2).map(|ends| {
+            let nodes = &fields.connectivity[ends[0] as usize..ends[1] as usize];
+            let place = |node: u32| nalgebra::Vector3::from(fields.points[node as usize]);
+            let tetrahedron = |[a, b, c, d]: [u32; 4]| {
+                let [b, c, d] = [b, c, d].map(|node| place(node) - place(a));
+                b.cross(&c).dot(&d) / 6.0
+            };
+            match *nodes {
+                [a, b, c, d] => vec![tetrahedron([a, b, c, d])],
+                [a, b, c, d, tip] => vec![tetrahedron([a, b, c, tip]), tetrahedron([a, c, d, tip])],
+                _ => panic!("a cell of {} nodes", nodes.len()),
+            }
+        });
+        let volumes: Vec<f64> = volumes.flatten().collect();
+        assert_eq!(volumes.len(), 6);
+        assert!(volumes.iter().all(|&volume| volume > 0.0), "{volumes:?}");
+        // Tetrahedra with 4 spacings an edge, an octahedron with 5: of a block of edge e they are e^3/(6 sqrt 2) and four of it.
+        let whole: f64 = volumes.iter().sum();
+        let expected = (2.0 * 64.0 + 4.0 * 125.0) / (6.0 * 2_f64.sqrt());
+        assert!((whole / expected - 1.0).abs() < 1e-12, "{whole} {expected}");
+    }
+}

@@ -1,0 +1,310 @@
+//! A slab with a crack: triangles and atoms in two dimensions, pulled by grips.
+
+mod ahead;
+mod bins;
+mod crack;
+mod gauges;
+pub mod j_integral;
+mod keep;
+mod probe;
+mod read;
+mod setting;
+mod sight;
+mod traction;
+mod watch;
+
+pub use keep::Kept;
+pub use probe::site_volume;
+pub use read::Reading;
+
+use std::sync::atomic::AtomicBool;
+use std::time::Instant;
+
+use super::body::Body;
+use super::clock::Clock;
+use super::cost::{Cost, Phase};
+use super::error::SolverError;
+use super::temperature::Thermometer;
+use super::{Settings, Solver, time_step};
+use crate::analysis::initiation;
+use crate::analysis::series::Setting;
+use crate::domain::{Domain, Ranks};
+use crate::forces::{ForceError, Forces, Measure, Summation};
+use crate::loading::{Load, Stretching};
+use crate::material::Material;
+use crate::mesh::Mesh;
+use crate::relaxation::{self, Target};
+use crate::state::State;
+use ahead::Next;
+use crack::Crack;
+use gauges::Gauges;
+use j_integral::JIntegral;
+use probe::{Interior, ProfileLine};
+use sight::Sight;
+use traction::Traction;
+
+/// A slab in motion: its forces, its grips, and what is read of it.
+pub struct Slab {
+    forces: Forces,
+    loading: Stretching,
+    setting: Setting,
+    measure: Measure,
+    next: Next,
+    probes: Probes,
+}
+
+/// What is read of a slab, and what its readings go on from.
+struct Probes {
+    interior: Interior,
+    profile: ProfileLine,
+    traction: Traction,
+    gauges: Gauges,
+    thermometer: Thermometer,
+    /// `None` where bonds of nodes stand for all others, so that the stress of the bonds is not what moves the nodes.
+    j_integral: Option<JIntegral>,
+    sight: Sight,
+    /// Bonds broken at the last probe, ascending.
+    broken: Vec<[i32; 3]>,
+    crack: Option<Crack>,
+    watch: watch::Watch,
+    /// Whether branches are looked for.
+    looks_for_branches: bool,
+}
+
+impl Solver {
+    /// A specimen at the start of its loading.
+    pub fn new(mesh: Mesh, material: Material, loading: Stretching, settings: Settings) -> Result<Self, SolverError> {
+        Self::shared(Ranks::alone(), mesh, material, loading, settings)
+    }
+
+    /// The part of this rank in what all ranks compute together.
+    pub fn shared(
+        ranks: Ranks,
+        mesh: Mesh,
+        material: Material,
+        mut loading: Stretching,
+        settings: Settings,
+    ) -> Result<Self, SolverError> {
+        let start = Instant::now();
+        let masses = mesh
+            .lumped_masses()
+            .into_iter()
+            .map(|mass| mass * material.site_mass)
+            .collect();
+        let mut state = State::at_rest(mesh.node_positions(), masses);
+        if settings.consistent_mass > 0.0 {
+            state.couple_masses(&mesh, settings.consistent_mass);
+        }
+        loading.pre_stretch(&mesh, &mut state);
+        loading.start(&mesh, &mut state);
+        let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
+        let probes = Probes::new(&mesh, material, &loading, &setting, &settings);
+        let mut forces = Forces::shared(ranks, mesh, material, settings.summation);
+        let held = loading.held();
+        let nothing = [vec![0.0; held.len()], vec![0.0; loading.sponge_size()]];
+        forces.look_at(held.into_iter());
+        loading.belong_to(&forces.domain().nodes(), &nothing[0], &nothing[1]);
+        let slab = Slab {
+            forces,
+            loading,
+            setting,
+            measure: Measure::default(),
+            next: Next::default(),
+            probes,
+        };
+        Self::of(slab, state, settings, start)
+    }
+
+    /// What the analysis must know of this specimen.
+    pub fn setting(&self) -> &Setting {
+        self.body.setting()
+    }
+
+    /// Centres of the bins of the profile along the crack plane, nm from the left edge.
+    pub fn profile_x(&self) -> &[f64] {
+        self.body.profile_x()
+    }
+
+    /// Where the wave gauges stand, nm from the left edge and from the crack plane.
+    pub fn gauge_places(&self) -> &[[f64; 2]] {
+        self.body.gauge_places()
+    }
+}
+
+impl Probes {
+    fn new(mesh: &Mesh, material: Material, loading: &Stretching, setting: &Setting, settings: &Settings) -> Self {
+        let profile = ProfileLine::new(mesh, setting);
+        let traction = Traction::new(mesh, &material, &profile, setting);
+        let gauges = Gauges::new(mesh, setting);
+        let has_stress = settings.summation != Summation::Nodal;
+        Self {
+            interior: Interior::new(mesh),
+            thermometer: Thermometer::new(free_atoms(mesh)),
+            j_integral: has_stress.then(|| JIntegral::new(mesh, material)),
+            sight: Sight::new(mesh, loading, &profile, &traction, &gauges),
+            profile,
+            traction,
+            gauges,
+            broken: Vec::new(),
+            crack: Crack::new(setting),
+            watch: watch::Watch::new(setting),
+            looks_for_branches: settings.until.after_branch.is_some(),
+        }
+    }
+}
+
+/// Nodes and sites of the atoms that are not in the grips.
+fn free_atoms(mesh: &Mesh) -> impl Iterator<Item = (usize, [i32; 2])> {
+    let atoms = mesh.elements.iter().enumerate().skip(mesh.triangles);
+    let free = atoms.filter(|(_, atom)| mesh.grip_of(atom) == 0);
+    free.map(|(element, atom)| (mesh.node(element, 0), [atom.column, atom.row]))
+}
+
+impl Slab {
+    /// What the analysis must know of it.
+    pub fn setting(&self) -> &Setting {
+        &self.setting
+    }
+
+    /// Centres of the bins of the profile along the crack plane, nm from the left edge.
+    pub fn profile_x(&self) -> &[f64] {
+        self.probes.profile.centres()
+    }
+
+    /// Where the wave gauges stand, nm from the left edge and from the crack plane.
+    pub fn gauge_places(&self) -> &[[f64; 2]] {
+        self.probes.gauges.places()
+    }
+
+    /// A crack that has set out before the motion begins would be taken for the notch.
+    fn refuse_a_crack_that_ran(&self, state: &State) -> Result<(), SolverError> {
+        let Some(mut crack) = Crack::new(&self.setting) else {
+            return Ok(());
+        };
+        let broken = self.forces.broken_bonds(&state.position);
+        crack.follow(&probe::bond_events(&[], &broken, 0), 0);
+        let [notch, tip] = [self.setting.crack_length, crack.tip().x];
+        if tip - notch > initiation::far(&self.setting) {
+            let strain = self.strain(0.0);
+            return Err(SolverError::RanWhileResting { notch, tip, strain });
+        }
+        Ok(())
+    }
+}
+
+impl Body<2> for Slab {
+    type Load = Stretching;
+
+    fn domain(&self) -> &Domain {
+        self.forces.domain()
+    }
+
+    fn domain_mut(&mut self) -> &mut Domain {
+        self.forces.domain_mut()
+    }
+
+    fn load(&self) -> &Stretching {
+        &self.loading
+    }
+
+    fn load_mut(&mut self) -> &mut Stretching {
+        &mut self.loading
+    }
+
+    fn spacing(&self) -> f64 {
+        self.setting.spacing
+    }
+
+    fn jump_at_cutoff(&self) -> f64 {
+        self.forces.material().interaction.jump_at_cutoff()
+    }
+
+    fn start(&self, state: &mut State) {
+        self.loading.start(self.forces.mesh(), state);
+    }
+
+    fn compute(&mut self, state: &mut State, _time: f64, measured: bool) -> Result<(), ForceError> {
+        let State { position, force, .. } = state;
+        match measured {
+            true => self.forces.compute_and_measure(position, force, &mut self.measure),
+            false => self.forces.compute(position, force),
+        }
+    }
+
+    fn compute_and_move(&mut self, state: &mut State, clock: Clock) -> Result<bool, ForceError> {
+        self.next
+            .compute_and_move(&mut self.forces, state, clock.time_step)
+            .map(|()| true)
+    }
+
+    fn stored(&self) -> [f64; 2] {
+        let domain = self.forces.domain();
+        [self.measure.energy(domain), self.measure.pairs(domain)]
+    }
+
+    fn stability_limit(&self, state: &State) -> f64 {
+        let bound = self.forces.squared_frequency_bound(state);
+        let [least, most] =
+            [-1.0, 1.0].map(|sign| time_step::nine_digits(bound * (1.0 + sign * Forces::FREQUENCY_SLACK)));
+        if least == most {
+            return least;
+        }
+        // The digits that are kept hang on those that are not, once in some hundred looks.
+        time_step::nine_digits(self.forces.squared_frequency_bound_one_by_one(state))
+    }
+
+    fn is_unbalanced(&mut self) -> bool {
+        self.forces.is_unbalanced()
+    }
+
+    fn cut_anew(&mut self, state: &mut State) {
+        let domain = self.forces.domain();
+        let State {
+            position,
+            velocity,
+            force,
+            ..
+        } = state;
+        let planes = position.iter_mut().chain(velocity).chain(force);
+        planes.for_each(|plane| domain.share_nodes(plane));
+        let impulses = self.loading.impulses(domain.ranks());
+        let absorbed = self.loading.absorbed(domain.ranks());
+        self.forces.cut_anew();
+        self.loading
+            .belong_to(&self.forces.domain().nodes(), &impulses, &absorbed);
+    }
+
+    fn relax(&mut self, state: &mut State, stop: &AtomicBool, tell: &mut dyn FnMut(f64)) -> Result<(), SolverError> {
+        let target = Target {
+            residual: super::RESIDUAL_AT_START,
+            ..Target::default()
+        };
+        relaxation::relax_unless(&mut self.forces, state, target, stop, tell).map_err(SolverError::NoRest)?;
+        self.refuse_a_crack_that_ran(state)
+    }
+
+    fn strain(&self, time: f64) -> f64 {
+        self.loading.strain(time)
+    }
+
+    fn time_of(&self, strain: f64) -> f64 {
+        self.loading.time_of(strain)
+    }
+
+    /// From the left edge, and from the crack plane.
+    fn reference_place(&self, node: usize) -> Vec<f64> {
+        let mesh = self.forces.mesh();
+        let [x, y] = mesh.node_positions();
+        vec![x[node] - self.setting.left_x, y[node] - mesh.middle_height()]
+    }
+
+    fn place_of_element(&self, element: usize) -> Vec<f64> {
+        self.reference_place(self.forces.mesh().node(element, 0))
+    }
+
+    fn rebook(&self, cost: &mut Cost) {
+        cost.rebook(Phase::SetUp, Phase::Cut, (1, self.forces.first_cut()));
+        cost.rebook(Phase::Forces, Phase::Neighbours, self.forces.search_cost());
+        cost.rebook(Phase::Forces, Phase::Exchange, self.forces.exchange_cost());
+    }
+}
