@@ -139,7 +139,8 @@ fn spread(values: &[(f64, &str)], unit: &str, with_names: bool) -> Option<String
         values.sort_by(|a, b| a.0.total_cmp(&b.0));
     }
     let (first, last) = (values.first()?, values.last()?);
-    if !with_names || values.iter().all(|value| number(value.0) == number(first.0)) {
+    let are_alike = values.len() > 1 && values.iter().all(|value| number(value.0) == number(first.0));
+    if !with_names || are_alike {
         return Some(format!("{} {unit}", number(first.0)));
     }
     let named = |(value, name): &(f64, &str)| format!("{} ({name})", number(*value));
@@ -182,6 +183,7 @@ mod tests {
         let values = [(374.0, "B"), (841.0, "E"), (393.0, "D"), (120.0, "A")];
         let told = |count: usize, with_names| spread(&values[..count], "ps", with_names).unwrap();
         assert_eq!(told(1, false), "374 ps");
+        assert_eq!(told(1, true), "374 ps (B)");
         assert_eq!(told(2, true), "374 (B) and 841 ps (E)");
         assert_eq!(told(4, true), "120 (A) to 841 ps (E)");
         assert_eq!(spread(&[(9.03, "B"), (9.031, "D")], "ps", true).unwrap(), "9.03 ps");
