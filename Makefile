@@ -111,6 +111,7 @@ setup:
 	@.ci/packages $(MPI_PACKAGES) || echo 'going on without MPI: cases use threads, on one machine each'
 
 test-setup: setup
+	@.ci/node target/node yaml-language-server@1
 	@.ci/python target/python h5py numpy vtk pandas pyvista ovito ase
 	@CARGO=$(CARGO) .ci/solver $(TARGET) --example one_rank_panics
 	@mkdir -p target/mpi && cp $(TARGET)/release/cgaft-solve $(TARGET)/release/examples/one_rank_panics target/mpi/

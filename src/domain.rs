@@ -11,6 +11,7 @@ mod halo;
 mod messages;
 #[cfg(feature = "mpi")]
 mod mpi;
+mod processor;
 mod sums;
 
 #[cfg(not(feature = "mpi"))]

@@ -104,7 +104,7 @@ impl Analysed<'_> {
         Some(self.findings.peak_speed()? / self.rayleigh_speed()?)
     }
 
-    /// Cores taken times wall time, s.
+    /// Time that processors worked, s.
     fn core_seconds(&self) -> Option<f64> {
         self.result.core_seconds()
     }

@@ -231,6 +231,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         self.settle();
         let mut clock = Instant::now();
         self.gather_motion();
+        self.cost.core_seconds = self.ranks().core_seconds();
         // The state is lent to the checkpoint: a copy would be most of what a run of atoms keeps in memory.
         let mut checkpoint = self.checkpoint_without_motion();
         if self.ranks().is_first() {

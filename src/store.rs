@@ -25,7 +25,7 @@ mod verify;
 
 pub use claim::{Claim, FolderLock};
 pub use clean::Leftover;
-pub use cost::Account;
+pub use cost::{Account, Spent};
 pub use error::StoreError;
 pub use files::write;
 pub use manifest::{Attempt, ExitState, Failure, Manifest, MessageCost, Outcome, Phase, Program, Reached, host};

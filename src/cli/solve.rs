@@ -256,7 +256,8 @@ fn compute(
         stability_limit_ps: finished.stability_limit,
         energy_error_relative: finished.energy_error,
         peak_memory_bytes: setup::memory::peak(),
-        cost: finished.cost,
+        core_seconds: Some(finished.cost.core_seconds),
+        cost: finished.cost.phases,
         messages: finished.messages.map(|messages| store::MessageCost {
             latency_s: messages.latency,
             seconds_a_byte: messages.a_byte,

@@ -142,8 +142,7 @@ impl<'a> Queue<'a> {
         Ok(())
     }
 
-    fn start(&mut self, number: usize, mut claim: Claim, crew: Crew) -> Result<(), ExecutorError> {
-        claim.takes(crew.cores());
+    fn start(&mut self, number: usize, claim: Claim, crew: Crew) -> Result<(), ExecutorError> {
         let folder = claim.folder();
         let mut command = launch::launch(&self.settings.solver, &folder, crew);
         if crew.ranks > 1 && self.settings.slurm_job.is_some() {

@@ -21,9 +21,9 @@ use ranges::ranges;
 use ranks::OverRanks;
 use scatter::Scatter;
 
-/// Size of a chart, and units of the drawing a unit of that: coordinates in the file are whole numbers.
-const WIDTH: u32 = 600;
-const HEIGHT: u32 = 400;
+/// Size of a chart, on a phone little less than its width, so that its text can be read there; and units of the drawing a unit of that: coordinates in the file are whole numbers.
+const WIDTH: u32 = 480;
+const HEIGHT: u32 = 320;
 const FINE: i32 = 4;
 
 /// nm in a millimetre.

@@ -10,13 +10,17 @@ use super::{Analysed, CaseResult, ReportError, Study, agreement, method, numbers
 use crate::plan::Comparison;
 use crate::units::amounts::duration;
 use minijinja::syntax::SyntaxConfig;
-use minijinja::{AutoEscape, Environment, Value, context};
+use minijinja::{AutoEscape, Environment, HtmlEscape, Value, context};
 
 /// Tables longer than this are linked instead of shown.
 const SHOWN_ROWS: usize = 60;
 
 /// More cases than this stand one below the other in the comparison.
 const MOST_ABREAST: usize = 8;
+
+/// Letters of all columns, each with a gap, that stand beside each other on paper; the others begin again below.
+const MOST_LETTERS: usize = 140;
+const COLUMN_GAP: usize = 3;
 
 /// More pictures of one kind than this are a grid of small ones.
 const MOST_LARGE: usize = 3;
@@ -87,7 +91,11 @@ impl Page<'_> {
     fn verdict(&self) -> Vec<String> {
         match self.scaling.and_then(scaling::verdict) {
             Some(gain) => vec![format!("{} {gain}", verdict::done(self.cases))],
-            None => verdict::verdict(self.cases),
+            None => {
+                let mut sentences = cheapest::recommendations(&speed_against_error::rows(self.cases));
+                sentences.extend(verdict::verdict(self.cases));
+                sentences
+            }
         }
     }
 
@@ -101,8 +109,7 @@ impl Page<'_> {
     fn economies(&self) -> Option<Value> {
         let rows = speed_against_error::rows(self.cases);
         let (heads, lines) = cheapest::shown(&rows);
-        let advice = cheapest::recommendations(&rows);
-        (!lines.is_empty()).then(|| context! { advice, heads, rows => lines })
+        (!lines.is_empty()).then(|| context! { heads, rows => lines })
     }
 
     /// What comes from elsewhere beside what the cases say.
@@ -175,6 +182,7 @@ fn rendered(name: &'static str, template: &'static str, page: Value) -> Result<S
     });
     environment.add_filter("cell", markdown_cell);
     environment.add_filter("block", indented);
+    environment.add_filter("breakable", breakable);
     environment.add_template(name, template)?;
     Ok(environment.get_template(name)?.render(page)?)
 }
@@ -205,7 +213,34 @@ fn table(table: &Table) -> Value {
     } else {
         Vec::new()
     };
-    context! { name => table.name, columns => table.columns(), height => table.height(), rows }
+    let columns = table.columns();
+    let pieces: Vec<Value> = pieces(&columns, &rows)
+        .into_iter()
+        .map(|piece| {
+            let of_piece = |cells: &[String]| piece.iter().map(|&column| cells[column].clone()).collect::<Vec<_>>();
+            context! { columns => of_piece(&columns), rows => rows.iter().map(|row| of_piece(row)).collect::<Vec<_>>() }
+        })
+        .collect();
+    context! { name => table.name, columns, height => table.height(), pieces, is_shown => !rows.is_empty() }
+}
+
+/// Which columns stand beside each other: the first in every piece, and each other in one.
+fn pieces(columns: &[String], rows: &[Vec<String>]) -> Vec<Vec<usize>> {
+    let letters = |column: usize| {
+        let cells = rows.iter().map(|row| row[column].chars().count());
+        cells.max().unwrap_or(0).max(columns[column].chars().count()) + COLUMN_GAP
+    };
+    let mut pieces: Vec<Vec<usize>> = Vec::new();
+    let mut room = 0;
+    for column in 1..columns.len() {
+        if room < letters(column) {
+            pieces.push(vec![0]);
+            room = MOST_LETTERS.saturating_sub(letters(0));
+        }
+        room = room.saturating_sub(letters(column));
+        pieces.last_mut().unwrap_or(&mut Vec::new()).push(column);
+    }
+    pieces
 }
 
 fn group(group: &Group) -> Value {
@@ -294,6 +329,21 @@ fn markdown_cell(text: &str) -> String {
     safe
 }
 
+/// A name that a narrow column may break behind its dots, but for those of numbers.
+fn breakable(name: &str) -> Value {
+    let mut safe = String::new();
+    let mut parts = name.split('.').peekable();
+    while let Some(part) = parts.next() {
+        safe.push_str(&HtmlEscape(part).to_string());
+        match parts.peek() {
+            Some(next) if next.starts_with(|letter: char| letter.is_ascii_digit()) => safe.push('.'),
+            Some(_) => safe.push_str(".<wbr>"),
+            None => {}
+        }
+    }
+    Value::from_safe_string(safe)
+}
+
 /// Text as a block of code that nothing in it can end.
 fn indented(text: &str) -> String {
     text.lines().map(|line| format!("    {line}\n")).collect()
@@ -329,6 +379,21 @@ mod tests {
         vectors
             .iter()
             .for_each(|(plain, coded)| assert_eq!(base64(plain.as_bytes()), *coded));
+    }
+
+    #[test]
+    fn wide_tables_are_cut_into_pieces_that_paper_can_hold_each_with_the_names_of_its_rows() {
+        let text = |length: usize| "x".repeat(length);
+        let columns: Vec<String> = [4, 90, 60, 40, 200, 3].map(text).to_vec();
+        let row = vec![text(10); 6];
+        let pieces = pieces(&columns, &[row]);
+        assert_eq!(pieces, [vec![0, 1], vec![0, 2, 3], vec![0, 4], vec![0, 5]]);
+    }
+
+    #[test]
+    fn names_break_behind_dots_but_numbers_do_not() {
+        assert_eq!(breakable("run.time-step").to_string(), "run.<wbr>time-step");
+        assert_eq!(breakable("rate-9.81e7 <a>").to_string(), "rate-9.81e7 &lt;a&gt;");
     }
 
     #[test]

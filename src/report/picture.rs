@@ -155,7 +155,7 @@ fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Res
             };
             format!(
                 "Displacements to scale. Colour is the virial stress σyy {direction}, on the same scale in all pictures (beyond \
-                 ±{end} GPa the end colours); white is empty space, grey are the grips."
+                 ±{end} GPa the end colours); black is empty space, grey are the grips."
             )
         }
         Shade::Speed => format!(

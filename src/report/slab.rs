@@ -54,16 +54,17 @@ pub fn view(positions: &[[f64; 2]], margin: f64) -> Option<View> {
     (view.x[0] < view.x[1] && view.y[0] < view.y[1]).then_some(view)
 }
 
-/// Paints the slab as RGB rows from the top, each cell in its colour.
+/// Paints the slab as RGB rows from the top, each cell in its colour, over what empty space has.
 pub fn paint(
     mesh: &FieldMesh,
     frame: &Frame,
     spacing: f64,
     view: View,
     colours: &[[u8; 3]],
+    empty: [u8; 3],
     [width, height]: [usize; 2],
 ) -> Vec<u8> {
-    let mut canvas = Canvas::new(width * SAMPLES, height * SAMPLES);
+    let mut canvas = Canvas::new(width * SAMPLES, height * SAMPLES, empty);
     let scale = [
         canvas.width as f64 / (view.x[1] - view.x[0]),
         canvas.height as f64 / (view.y[1] - view.y[0]),
@@ -107,11 +108,11 @@ struct Canvas {
 }
 
 impl Canvas {
-    fn new(width: usize, height: usize) -> Canvas {
+    fn new(width: usize, height: usize, empty: [u8; 3]) -> Canvas {
         Canvas {
             width,
             height,
-            pixels: vec![[255; 3]; width * height],
+            pixels: vec![empty; width * height],
         }
     }
 
@@ -200,7 +201,7 @@ mod tests {
             y: [-0.5, 0.5],
         };
         let colour = [10, 20, 30];
-        let pixels = paint(&mesh, &frame, 1.0, view, &[colour; 2], [40, 20]);
+        let pixels = paint(&mesh, &frame, 1.0, view, &[colour; 2], [255; 3], [40, 20]);
         assert!(
             pixels.chunks(3).all(|pixel| pixel == colour),
             "a pixel between the elements is not painted"

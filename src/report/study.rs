@@ -83,9 +83,7 @@ pub struct CaseResult {
 impl CaseResult {
     /// Cores taken times wall time, s.
     pub fn core_seconds(&self) -> Option<f64> {
-        let manifest = &self.manifest;
-        let as_at_the_end = || Some(f64::from(manifest.ranks? * manifest.threads?) * manifest.wall_seconds?);
-        manifest.core_seconds.or_else(as_at_the_end)
+        self.manifest.core_seconds
     }
 
     /// Whether its run has left pictures.
@@ -128,7 +126,7 @@ pub struct Manifest {
     pub started: Option<String>,
     pub ended: Option<String>,
     pub wall_seconds: Option<f64>,
-    /// Wall time times the cores taken, if they were not the same all the time; s.
+    /// Time that processors worked for all ranks and threads, s.
     pub core_seconds: Option<f64>,
     /// Which condition ended the run.
     pub end_reason: Option<String>,

@@ -1,5 +1,7 @@
 //! The first lines of a report: what came out, what to beware of, whether it worked, and for what effort.
 
+mod alone;
+
 use super::headline::{self, Headline};
 use super::numbers::{capital, round_significant, significant};
 use super::overview::{ROUNDING, between_probes};
@@ -160,8 +162,10 @@ fn with_error(value: f64, error: Option<f64>) -> String {
     }
 }
 
-/// The finest case of each specimen, and the others beside it.
+/// What cases of different specimens come to; the finest case of each specimen that has several, and the others beside it.
 fn case_by_case(cases: &[Analysed]) -> Vec<String> {
+    let alone = cases.iter().filter(|case| case.reference.is_none());
+    let alone: Vec<&Analysed> = alone.filter(|case| !case.result.series.probes.is_empty()).collect();
     let sentence = |(index, reference): (usize, &Analysed)| {
         // Each specimen has a case of its own that the others are measured against.
         let mut sentence = outcome(reference).filter(|_| reference.reference == Some(index))?;
@@ -175,7 +179,12 @@ fn case_by_case(cases: &[Analysed]) -> Vec<String> {
         }
         Some(format!("{sentence}."))
     };
-    cases.iter().enumerate().filter_map(sentence).collect()
+    let mut sentences = alone::sentences(&alone);
+    let whole = alone.iter().filter(|case| !case.has_crack());
+    let whole: Vec<String> = whole.filter_map(|case| Some(outcome(case)? + ".")).collect();
+    sentences.extend(whole.into_iter().take(MOST_NAMED));
+    sentences.extend(cases.iter().enumerate().filter_map(sentence));
+    sentences
 }
 
 /// When the crack starts and at which K; without a crack how far the stress comes.

@@ -12,7 +12,7 @@ use crate::record::rows::{Described, Rows};
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
 use crate::solver::{self, Cost, Instruments, Moment, Observer, Progress, Solver};
-use crate::store::{Account, Phase};
+use crate::store::{Account, Phase, Spent};
 
 /// What of a kind of specimen goes into the folder of its run.
 pub trait Recorded<const D: usize>: Instruments<D, Kept: Keep> + Sized {
@@ -85,8 +85,8 @@ impl<'a, R: Rows + Clone> Recorder<'a, R> {
     }
 
     /// What this attempt and those before it have cost.
-    pub fn total_cost(&self, cost: &Cost) -> Vec<Phase> {
-        self.account.total(&phases(cost))
+    pub fn total_cost(&self, cost: &Cost) -> Spent {
+        self.account.total(&spent(cost))
     }
 }
 
@@ -105,7 +105,7 @@ impl<B: Recorded<D>, const D: usize> Observer<B, D> for Recorder<'_, RowsOf<B, D
     fn checkpoint(&mut self, checkpoint: &Checkpoint<B::Kept, D>, cost: &Cost) -> Result<(), RunCaseError> {
         self.flush()?;
         record::checkpoint::write(&self.folder.join(CHECKPOINT_FILE), &self.case_id, checkpoint)?;
-        Ok(self.account.save(&phases(cost))?)
+        Ok(self.account.save(&spent(cost))?)
     }
 
     fn progress(&mut self, progress: &Progress) {
@@ -113,13 +113,16 @@ impl<B: Recorded<D>, const D: usize> Observer<B, D> for Recorder<'_, RowsOf<B, D
     }
 }
 
-fn phases(cost: &Cost) -> Vec<Phase> {
+fn spent(cost: &Cost) -> Spent {
     let phase = |(phase, calls, seconds): (solver::Phase, u64, f64)| Phase {
         name: phase.name().to_owned(),
         calls,
         seconds,
     };
-    cost.rows().map(phase).collect()
+    Spent {
+        core_seconds: cost.core_seconds,
+        phases: cost.rows().map(phase).collect(),
+    }
 }
 
 /// So many items without a gap in memory behind them.

@@ -11,8 +11,8 @@ use crate::domain::{MessageCost, Ranks};
 use crate::plan::CaseId;
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
-use crate::solver::{Ending, Phase as Spent, Progress, RunError, Solver, SolverError};
-use crate::store::{Phase, StoreError};
+use crate::solver::{self, Ending, Progress, RunError, Solver, SolverError};
+use crate::store::{Phase, Spent, StoreError};
 use crate::study::case::{Body, Case};
 
 /// How a run ended and what it cost.
@@ -26,7 +26,7 @@ pub struct Finished {
     /// Largest energy imbalance over the largest work; `None` before any work was done.
     pub energy_error: Option<f64>,
     /// Of all attempts together; the mesh and the publishing of the last.
-    pub cost: Vec<Phase>,
+    pub cost: Spent,
     /// `None` where there was one rank, and nothing to be sent.
     pub messages: Option<MessageCost>,
 }
@@ -101,7 +101,7 @@ fn compute<B: Recorded<D>, const D: usize>(
     let start = Instant::now();
     let mut solver = set_up()?;
     let set_up = start.elapsed().as_secs_f64();
-    let mesh = set_up - solver.cost().seconds(Spent::SetUp) - solver.cost().seconds(Spent::Cut);
+    let mesh = set_up - solver.cost().seconds(solver::Phase::SetUp) - solver.cost().seconds(solver::Phase::Cut);
     resume(&mut solver, into, ranks, &id, warn)?;
     let mut recorder = Recorder::new(into, id.clone(), &solver, tell);
     let ended = solver.run(&mut recorder, stop);
@@ -116,6 +116,7 @@ fn compute<B: Recorded<D>, const D: usize>(
             return Err(RunCaseError::Physics(error, into.display().to_string()));
         }
     };
+    let cost = solver.cost();
     let messages = (ending != Ending::Interrupted).then(|| ranks.message_cost()).flatten();
     let [time_step, stability_limit] = solver.time_step();
     let mut finished = Finished {
@@ -124,17 +125,19 @@ fn compute<B: Recorded<D>, const D: usize>(
         time_step,
         stability_limit,
         energy_error: solver.ledger().relative_error(),
-        cost: recorder.total_cost(&solver.cost()),
+        cost: recorder.total_cost(&cost),
         messages,
     };
     // What the solver has no clock for.
-    finished.cost.push(phase("mesh", mesh));
+    finished.cost.phases.push(phase("mesh", mesh));
     if ranks.is_first() && ending != Ending::Interrupted {
         let start = Instant::now();
         publish(solver, into, &id)?;
         let seconds = start.elapsed().as_secs_f64();
-        finished.cost.push(phase("publishing", seconds));
+        finished.cost.phases.push(phase("publishing", seconds));
     }
+    // What has been worked since the last checkpoint.
+    finished.cost.core_seconds += ranks.core_seconds() - cost.core_seconds;
     Ok(finished)
 }
 

@@ -49,9 +49,11 @@ impl Phase {
     }
 }
 
-/// Calls and seconds of every phase.
+/// Calls and seconds of every phase, on the wall, and what the processors worked.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Cost {
+    /// Of all ranks and threads, when it was last told, s.
+    pub core_seconds: f64,
     spent: [(u64, f64); Phase::ALL.len()],
 }
 

@@ -27,9 +27,6 @@ pub struct Claim {
     attempt: Attempt,
     /// Wall time of the attempts before this one, s.
     wall_seconds_before: f64,
-    core_seconds_before: f64,
-    /// Cores that this attempt takes.
-    cores: usize,
     clock: Instant,
     _lock: File,
 }
@@ -48,16 +45,13 @@ impl Store {
             attempts: 0,
             started: Timestamp::now(),
             wall_seconds: 0.0,
-            core_seconds: 0.0,
             reached: None,
         });
         Ok(Some(Claim {
             store: self.clone(),
             id: id.to_owned(),
             wall_seconds_before: attempt.wall_seconds,
-            core_seconds_before: attempt.core_seconds,
             attempt,
-            cores: 1,
             clock: Instant::now(),
             _lock: lock,
         }))
@@ -86,7 +80,6 @@ impl Claim {
             files::remove(&folder)?;
             self.attempt.started = Timestamp::now();
             self.attempt.wall_seconds = 0.0;
-            self.attempt.core_seconds = 0.0;
             self.attempt.reached = None;
         }
         fs::create_dir_all(&folder).map_err(StoreError::write(&folder))?;
@@ -98,22 +91,14 @@ impl Claim {
         self.attempt.program = Program::current();
         self.attempt.attempts += 1;
         self.wall_seconds_before = self.attempt.wall_seconds;
-        self.core_seconds_before = self.attempt.core_seconds;
         self.clock = Instant::now();
         self.write_attempt()
-    }
-
-    /// Says how many cores the attempt that has just begun takes; one if nobody says.
-    pub fn takes(&mut self, cores: usize) {
-        self.cores = cores;
     }
 
     /// Remembers how far the run is, for those who look on and for the time after an interruption.
     pub fn note(&mut self, reached: Option<Reached>) -> Result<&Attempt, StoreError> {
         self.attempt.reached = reached.or(self.attempt.reached);
-        let elapsed = self.clock.elapsed().as_secs_f64();
-        self.attempt.wall_seconds = self.wall_seconds_before + elapsed;
-        self.attempt.core_seconds = self.core_seconds_before + elapsed * self.cores as f64;
+        self.attempt.wall_seconds = self.wall_seconds_before + self.clock.elapsed().as_secs_f64();
         self.write_attempt()?;
         Ok(&self.attempt)
     }
@@ -153,7 +138,7 @@ impl Claim {
             ended: Timestamp::now(),
             attempts: self.attempt.attempts,
             wall_seconds: self.attempt.wall_seconds,
-            core_seconds: Some(self.attempt.core_seconds),
+            cores_times_wall: None,
             exit_state: ExitState::Done,
             outcome,
             files,

@@ -1,20 +1,31 @@
 //! What a run has cost over all its attempts: `cost.json`, replaced with every checkpoint.
 //!
 //! It stands beside the checkpoint and not in it, so that the checkpoint of an interrupted run is that of a whole one.
-//! What a kill took away since the last checkpoint is in the wall time, and in no phase.
+//! What a kill took away since the last checkpoint is in the wall time, and nowhere here.
 
 use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
 
 use super::{Phase, StoreError, files};
 
 pub(super) const COST: &str = "cost.json";
+
+/// What attempts have spent.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+pub struct Spent {
+    /// Time that processors worked for all ranks and threads, s.
+    pub core_seconds: f64,
+    /// Where the wall time went.
+    pub phases: Vec<Phase>,
+}
 
 /// The account of a run.
 #[derive(Clone, Debug)]
 pub struct Account {
     path: PathBuf,
     /// Of the attempts before this one.
-    before: Vec<Phase>,
+    before: Spent,
 }
 
 impl Account {
@@ -28,20 +39,21 @@ impl Account {
     }
 
     /// Replaces the account by what there was and what this attempt has cost so far.
-    pub fn save(&self, attempt: &[Phase]) -> Result<(), StoreError> {
+    pub fn save(&self, attempt: &Spent) -> Result<(), StoreError> {
         files::write_json(&self.path, &self.total(attempt))
     }
 
     /// All attempts together, phase by phase.
-    pub fn total(&self, attempt: &[Phase]) -> Vec<Phase> {
+    pub fn total(&self, attempt: &Spent) -> Spent {
         let mut total = self.before.clone();
-        for phase in attempt {
-            match total.iter_mut().find(|known| known.name == phase.name) {
+        total.core_seconds += attempt.core_seconds;
+        for phase in &attempt.phases {
+            match total.phases.iter_mut().find(|known| known.name == phase.name) {
                 Some(known) => {
                     known.calls += phase.calls;
                     known.seconds += phase.seconds;
                 }
-                None => total.push(phase.clone()),
+                None => total.phases.push(phase.clone()),
             }
         }
         total

@@ -33,9 +33,9 @@ pub struct Manifest {
     pub attempts: u32,
     /// Wall time of all attempts together, s.
     pub wall_seconds: f64,
-    /// The same times the cores that each attempt took; `None` in manifests from before it was told.
-    #[serde(default)]
-    pub core_seconds: Option<f64>,
+    /// Wall time times cores, in manifests from before processor time was measured; nobody asks for it any more.
+    #[serde(default, skip_serializing, rename = "core_seconds")]
+    pub cores_times_wall: Option<f64>,
     /// Always `done` here: other endings are never published.
     pub exit_state: ExitState,
     pub outcome: Outcome,
@@ -68,7 +68,10 @@ pub struct Outcome {
     pub energy_error_relative: Option<f64>,
     /// Largest memory of the last attempt; `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
-    /// Where the time of all attempts went.
+    /// Time that processors worked for all ranks and threads of all attempts, s; `None` from before it was measured.
+    #[serde(default)]
+    pub core_seconds: Option<f64>,
+    /// Where the wall time of all attempts went.
     pub cost: Vec<Phase>,
     /// What messages between its ranks cost; `None` for one rank.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -123,9 +126,6 @@ pub struct Attempt {
     pub started: Timestamp,
     /// Wall time of all attempts so far, s.
     pub wall_seconds: f64,
-    /// The same times the cores that each of them took.
-    #[serde(default)]
-    pub core_seconds: f64,
     /// `None` until the solver has told it.
     pub reached: Option<Reached>,
 }

@@ -2,6 +2,7 @@
 
 mod beside;
 mod checkpoint;
+mod cost;
 mod damage;
 mod endless;
 mod failure;

@@ -218,8 +218,6 @@ fn a_case_left_alone_goes_on_from_its_checkpoint_with_all_cores() {
         panic!("it is done")
     };
     assert_eq!((manifest.attempts, manifest.threads), (2, 2));
-    let cores = manifest.core_seconds.unwrap() / manifest.wall_seconds;
-    assert!(cores > 1.0 && cores < 2.0, "{cores}");
 }
 
 #[test]

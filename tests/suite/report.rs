@@ -76,7 +76,7 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
             started: Some("2026-01-02T03:04:05Z".to_owned()),
             ended: Some("2026-01-02T03:05:05Z".to_owned()),
             wall_seconds: Some(wall),
-            core_seconds: None,
+            core_seconds: Some(2.0 * wall),
             end_reason: Some("strain reached".to_owned()),
             time_step: Some(0.0351 * f64::from(element).sqrt()),
             stability_limit: Some(0.0439 * f64::from(element).sqrt()),

@@ -4,7 +4,7 @@ use std::os::unix::fs::PermissionsExt;
 use std::path::Path;
 use std::time::Duration;
 
-use cgaft::store::{Account, FolderLock, Leftover, Outcome, Phase, Reached, State, Store, StoreError};
+use cgaft::store::{Account, FolderLock, Leftover, Outcome, Phase, Reached, Spent, State, Store, StoreError};
 use serde_json::json;
 use tempfile::TempDir;
 
@@ -25,6 +25,7 @@ fn outcome() -> Outcome {
         stability_limit_ps: 1.5e-3,
         energy_error_relative: None,
         peak_memory_bytes: None,
+        core_seconds: None,
         cost: Vec::new(),
         messages: None,
     }
@@ -331,19 +332,23 @@ fn an_account_adds_up_what_the_attempts_cost() {
         calls,
         seconds,
     };
+    let spent = |core_seconds, phases: &[Phase]| Spent {
+        core_seconds,
+        phases: phases.to_vec(),
+    };
     let first = Account::open(folder.path());
-    first.save(&[phase("forces", 10, 1.0)]).unwrap();
+    first.save(&spent(1.5, &[phase("forces", 10, 1.0)])).unwrap();
     // The same attempt, further on.
     first
-        .save(&[phase("forces", 40, 4.0), phase("output", 1, 0.5)])
+        .save(&spent(6.0, &[phase("forces", 40, 4.0), phase("output", 1, 0.5)]))
         .unwrap();
     let second = Account::open(folder.path());
     assert_eq!(
-        second.total(&[phase("forces", 2, 0.25)]),
-        [phase("forces", 42, 4.25), phase("output", 1, 0.5)]
+        second.total(&spent(0.75, &[phase("forces", 2, 0.25)])),
+        spent(6.75, &[phase("forces", 42, 4.25), phase("output", 1, 0.5)])
     );
     fs::write(folder.path().join("cost.json"), "{").unwrap();
-    assert_eq!(Account::open(folder.path()).total(&[]), []);
+    assert_eq!(Account::open(folder.path()).total(&Spent::default()), Spent::default());
 }
 
 #[test]

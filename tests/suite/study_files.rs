@@ -3,6 +3,7 @@
 //! Every file of `tests/study_files/bad` begins with what is to be reported, a line a mistake, in the order of the file:
 //! `# 5:14 message` for a place, `# - message` for the file as a whole, and `#   help: …` where the help matters.
 
+mod language_server;
 mod mutations;
 mod schema;
 mod shipped;

@@ -20,13 +20,15 @@ const FLOORS: [&[&str]; 10] = [
 ];
 
 /// What stands for a crate or a system service in the text of a source file, and the modules that may use it.
-const OWNERS: [(&str, &[&str]); 14] = [
+const OWNERS: [(&str, &[&str]); 16] = [
     ("polars", &["report"]),
     ("plotters", &["report"]),
+    ("colorous", &["report"]),
     ("hdf5::", &["record"]),
     ("serde_saphyr", &["study"]),
     ("csv::", &["plan"]),
     ("use mpi::", &["domain"]),
+    ("rustix", &["domain"]),
     ("Command::new(", &["executor"]),
     ("remove_dir", &["store"]),
     ("fs::rename", &["durable", "store"]),

@@ -193,7 +193,7 @@ fn manifest(done: &store::Manifest) -> Manifest {
         started: Some(moment(done.started)),
         ended: Some(moment(done.ended)),
         wall_seconds: Some(done.wall_seconds),
-        core_seconds: done.core_seconds,
+        core_seconds: outcome.core_seconds,
         end_reason: Some(outcome.end_reason.clone()),
         time_step: Some(outcome.time_step_ps),
         stability_limit: Some(outcome.stability_limit_ps),

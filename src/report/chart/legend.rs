@@ -19,7 +19,7 @@ const RIGHT: i32 = (WIDTH as i32 - 10) * FINE;
 const MOST_NAMED: usize = 6;
 
 /// The plot below has the height of this many rows.
-const MOST_ROWS: i32 = 12;
+const MOST_ROWS: i32 = 9;
 
 /// Where a line, a marker and a name of each entry stand, in rows.
 pub struct Legend {

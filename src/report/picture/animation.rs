@@ -83,7 +83,10 @@ impl Strip {
         let paint = |index: usize| {
             let frame = film.frame(index)?;
             let colours = Shade::Speed.colours(&film.mesh, &frame, self.limit);
-            Ok(slab::paint(&film.mesh, &frame, spacing, self.view, &colours, self.size))
+            let empty = Shade::Speed.empty();
+            Ok(slab::paint(
+                &film.mesh, &frame, spacing, self.view, &colours, empty, self.size,
+            ))
         };
         let pictures: Vec<_> = (0..film.moments().len()).into_par_iter().map(paint).collect();
         Palette::of(&Shade::Speed.scale(self.limit)).encode(

@@ -1,4 +1,4 @@
-//! Pictures with axes in nm and a colour scale beside them.
+//! Pictures with axes in nm and a colour scale above them.
 
 use std::error::Error;
 use std::ops::Range;
@@ -93,7 +93,7 @@ impl Canvas {
             .x_desc(self.names[0])
             .y_desc(self.names[1])
             .draw()?;
-        scale.draw(root, self.height as i32)?;
+        scale.draw(root)?;
         root.present()?;
         Ok(())
     }
@@ -121,7 +121,15 @@ impl Drawing<'_> {
             let colours = self
                 .shade
                 .colours_between_grips(self.mesh, self.frame, self.limit, self.height);
-            let pixels = slab::paint(self.mesh, self.frame, self.spacing, self.view, &colours, size);
+            let pixels = slab::paint(
+                self.mesh,
+                self.frame,
+                self.spacing,
+                self.view,
+                &colours,
+                self.shade.empty(),
+                size,
+            );
             let [wide, high] = size.map(|side| side as u32);
             let picture = BitMapElement::with_owned_buffer((x[0], y[1]), (wide, high), pixels);
             chart.draw_series([picture.ok_or("the raster does not fit the picture")?])?;

@@ -1,11 +1,15 @@
-//! A scale of colours, and its bar beside a picture.
+//! A scale of colours, and its bar above a picture.
 
 use plotters::coord::Shift;
 use plotters::prelude::*;
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 
-use super::margins::{INK, RIGHT, TEXT, TOP, WIDTH};
+use super::margins::{EDGE, INK, LEFT, RIGHT, TEXT, WIDTH};
 use crate::report::numbers;
+
+/// Rows in which the bar begins and ends, and the length of its ticks, pixels.
+const BAR: [i32; 2] = [22, 74];
+const TICK: i32 = 11;
 
 /// Which colour stands for which value.
 #[derive(Clone, Copy)]
@@ -25,32 +29,35 @@ impl Scale {
         (self.colour)(((value - low) / (high - low)).clamp(0.0, 1.0))
     }
 
-    /// The bar, right of a picture of this height and as high as it.
+    /// The bar, above a picture and as wide as it, behind its label.
     pub fn draw<'a>(
         &self,
         root: &DrawingArea<BitMapBackend<'a>, Shift>,
-        height: i32,
     ) -> Result<(), DrawingAreaErrorKind<<BitMapBackend<'a> as DrawingBackend>::ErrorType>> {
         let font = ("sans-serif", TEXT).into_font().color(&INK);
-        let (left, right, top) = ((WIDTH - RIGHT) as i32 + 45, (WIDTH - RIGHT) as i32 + 97, TOP as i32);
-        let (from, to) = (top + 84, top + height - TEXT / 2);
-        for row in from..to {
-            let place = 1.0 - f64::from(row - from) / f64::from((to - from - 1).max(1));
+        let (left, right) = ((EDGE + LEFT) as i32, (WIDTH - RIGHT) as i32);
+        root.draw(&Text::new(
+            self.label,
+            (left, (BAR[0] + BAR[1] - TEXT) / 2),
+            font.clone(),
+        ))?;
+        let from = left + root.estimate_text_size(self.label, &font)?.0 as i32 + TEXT;
+        for column in from..right {
+            let place = f64::from(column - from) / f64::from((right - from - 1).max(1));
             let [red, green, blue] = (self.colour)(place);
             let colour = RGBColor(red, green, blue);
-            root.draw(&PathElement::new([(left, row), (right, row)], colour))?;
+            root.draw(&PathElement::new([(column, BAR[0]), (column, BAR[1])], colour))?;
         }
-        root.draw(&Text::new(self.label, (left - 10, top - 3), font.clone()))?;
-        let centred = font.pos(Pos::new(HPos::Left, VPos::Center));
+        let below = font.pos(Pos::new(HPos::Center, VPos::Top));
         let [low, high] = self.ends;
         for place in [0.0, 0.25, 0.5, 0.75, 1.0] {
-            let row = to - 1 - (f64::from(to - from - 1) * place) as i32;
+            let column = from + (f64::from(right - from - 1) * place) as i32;
             root.draw(&PathElement::new(
-                [(right, row), (right + 11, row)],
+                [(column, BAR[1]), (column, BAR[1] + TICK)],
                 INK.stroke_width(3),
             ))?;
             let number = numbers::tick(numbers::round_significant(low + (high - low) * place, 3));
-            root.draw(&Text::new(number, (right + 22, row), centred.clone()))?;
+            root.draw(&Text::new(number, (column, BAR[1] + 2 * TICK), below.clone()))?;
         }
         Ok(())
     }

@@ -8,8 +8,10 @@ use crate::report::{numbers, palette};
 /// The scale ends at this quantile, so that a few torn atoms do not darken all the rest.
 const QUANTILE: f64 = 0.995;
 
-/// Colour of the grips, one of the greys of the palette of a picture.
+/// Colours of the grips and of empty space, greys of the palette of a picture.
 const GRIPS: [u8; 3] = [151; 3];
+const BLACK: [u8; 3] = [34; 3];
+const WHITE: [u8; 3] = [255; 3];
 
 /// The innermost nodes of the grips are at their inner edges, but for rounding.
 const INNER_EDGE: f64 = 1.0 - 1e-6;
@@ -24,6 +26,14 @@ pub enum Shade {
 }
 
 impl Shade {
+    /// Of empty space: what is farthest from the colour at zero, so that a crack between idle faces shows.
+    pub fn empty(self) -> [u8; 3] {
+        match self {
+            Self::Stress => BLACK,
+            Self::Speed => WHITE,
+        }
+    }
+
     /// Its colours, with the end at this value.
     pub fn scale(self, limit: f64) -> Scale {
         match self {

@@ -4,6 +4,7 @@ use polars::prelude::Column;
 
 use super::speed_against_error::{COST, Quantity, Row};
 use crate::report::numbers::{ABSENT, significant};
+use crate::report::overview::ROUNDING;
 use crate::report::table::Rows;
 use crate::report::units::PERCENT;
 
@@ -103,21 +104,27 @@ pub fn shown(rows: &[Row]) -> (Vec<String>, Vec<Vec<String>>) {
     (heads, choices.chunks(WITHIN.len()).map(line).collect())
 }
 
-/// `Take mixed: within 5 % of atoms in all that is measured, and 3.2 times cheaper.`
+/// `Take mixed: within 5 % of atoms in all that is measured, as far as probes tell, and 3.2 times cheaper.`
 pub fn recommendations(rows: &[Row]) -> Vec<String> {
     let of = |reference: &Row| {
-        let errors = |row: &Row| Quantity::ALL.map(|quantity| row.error(quantity));
+        let errors = |row: &Row| {
+            let told = |quantity| row.error(quantity).map(|error| (error, row.probe(quantity)));
+            Quantity::ALL.map(told)
+        };
         let wanted: Vec<bool> = (0..Quantity::ALL.len())
             .map(|index| cheaper(rows, reference).any(|row| errors(row)[index].is_some()))
             .collect();
         let is_near = |row: &&Row| {
             let mut known = errors(row).into_iter().zip(&wanted).filter(|(_, wanted)| **wanted);
-            known.all(|(error, _)| error.is_some_and(|error| error * PERCENT <= RECOMMENDED))
+            known.all(|(told, _)| {
+                told.is_some_and(|(error, probe)| error * PERCENT <= RECOMMENDED || error <= ROUNDING * probe)
+            })
         };
         let name = reference.case.name();
         match cheapest(cheaper(rows, reference).filter(is_near)) {
             Some(row) => format!(
-                "Take {}: within {RECOMMENDED} % of {name} in all that is measured, and {} times cheaper.",
+                "Take {}: within {RECOMMENDED} % of {name} in all that is measured, as far as probes tell, and {} times \
+                 cheaper.",
                 row.case.name(),
                 significant(reference.cost / row.cost, 2)
             ),

@@ -88,13 +88,18 @@ impl Row<'_> {
 
     /// The error in percent as far as it can be told, which is never nothing.
     fn resolved_percent(&self, quantity: Quantity) -> Option<f64> {
+        let least = (self.probe(quantity) * PERCENT).max(LEAST_PERCENT);
+        Some((self.error(quantity)? * PERCENT).max(least))
+    }
+
+    /// What a probe is of the quantity: a smaller error cannot be told from none.
+    pub fn probe(&self, quantity: Quantity) -> f64 {
         let probe = match quantity {
             Quantity::Initiation | Quantity::StressIntensity => overview::between_probes(self.case, self.reference),
             Quantity::Arrival => overview::between_arrivals(self.reference),
             Quantity::Stress | Quantity::Speed => None,
         };
-        let least = (probe.unwrap_or(0.0) * PERCENT).max(LEAST_PERCENT);
-        Some((self.error(quantity)? * PERCENT).max(least))
+        probe.unwrap_or(0.0)
     }
 
     /// Number of the reference among the rows: cases of one specimen have the same.
@@ -111,6 +116,11 @@ impl Row<'_> {
         let Some(error) = self.resolved_percent(quantity) else {
             return false;
         };
+        // The reference has no error.
+        let reference = rows.iter().find(|row| std::ptr::eq(row.case, self.reference));
+        if reference.is_some_and(|reference| reference.cost <= self.cost) {
+            return false;
+        }
         let beats = |other: &Row| {
             std::ptr::eq(other.reference, self.reference)
                 && other.resolved_percent(quantity).is_some_and(|theirs| {
@@ -162,8 +172,10 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
             title: format!("Speed against error: {}", quantity.words()),
             caption: format!(
                 "Error of the {} against the cost of a case. Filled and joined are the cases that no other one beats in \
-                 both. Errors that the probes cannot tell are drawn at what they can. Each material has its own colour and \
-                 reference. Diamonds at the lower edge: what the reference itself costs, and other programs.",
+                 both; others have a name where there is room, all are in the table. Errors that the probes cannot tell are \
+                 drawn at what they can. Each material has its own colour, outline and \
+                 reference. Below, where there is no error: the reference itself, and other programs that compute the same \
+                 atoms by the same bonds.",
                 quantity.words()
             ),
             x: "cost (core-seconds per simulated ps)".to_owned(),

@@ -44,14 +44,14 @@ fn mpirun(ranks: u32, program: &Path) -> Command {
 }
 
 /// So many ranks of the solver for a case file.
-fn ranks(count: u32, case: &Path, into: &Path, arguments: &[&str]) -> Command {
+pub fn ranks(count: u32, case: &Path, into: &Path, arguments: &[&str]) -> Command {
     let mut command = mpirun(count, &solver_with_mpi());
     command.arg(case).arg("--into").arg(into).args(arguments);
     command
 }
 
 /// A study computed by one process, and the case file of a mesh of triangles and atoms in it.
-fn computed(place: &Workspace) -> (PathBuf, PathBuf) {
+pub fn computed(place: &Workspace) -> (PathBuf, PathBuf) {
     place.cgaft("run", &["--only", "mixed"]).succeeded();
     let run = place.case("mixed");
     let case = place.path("case.yaml");

@@ -39,12 +39,12 @@ fn figures_for_a_paper_have_its_width() {
     let folder = written(&study);
     let svg = text(&folder, "figures/stress-strain.svg");
     assert!(
-        svg.contains(" width=\"86.00mm\" height=\"57.33mm\" viewBox=\"0 0 2400 1600\""),
+        svg.contains(" width=\"86.00mm\" height=\"57.33mm\" viewBox=\"0 0 1920 1280\""),
         "{}",
         &svg[..300]
     );
     assert!(
-        text(&folder, "report.html").contains("<svg width=\"600\" height=\"400\""),
+        text(&folder, "report.html").contains("<svg width=\"480\" height=\"320\""),
         "the page keeps its own"
     );
 }
@@ -89,7 +89,7 @@ fn many_cases_stand_one_below_the_other_and_their_legend_takes_nothing_from_the_
         let height = svg.split("height=\"").nth(1).and_then(|rest| rest.split('"').next());
         height.unwrap().parse::<u32>().unwrap()
     });
-    assert_eq!(few, 400);
-    // Two of these names fit into a row of 24 units, and twelve rows are as high as the plot: 23 names, and how many more.
-    assert_eq!(many, 400 + 11 * 24);
+    assert_eq!(few, 320);
+    // Rows of 24 units, of which nine are as high as the plot; the last tells how many more there are.
+    assert_eq!(many, 320 + 8 * 24);
 }

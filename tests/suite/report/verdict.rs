@@ -47,6 +47,22 @@ fn what_the_elements_do_to_a_crack_is_told_where_there_are_such_elements() {
 }
 
 #[test]
+fn cases_of_different_specimens_are_answered_for_together() {
+    let mut study = three_meshes();
+    for (case, stretch) in study.cases.iter_mut().zip([1.0, 1.1, 1.2]) {
+        case.setting.as_mut().unwrap().length *= stretch;
+    }
+    let page = text(&written(&study), "report.md");
+    let answer = page.lines().find(|line| line.starts_with("**")).unwrap();
+    assert!(answer.contains("The crack starts at "), "{answer}");
+    for name in ["(coarse)", "(mixed)", "(atoms)", "one probe"] {
+        assert!(answer.contains(name), "{name}: {answer}");
+    }
+    let cost = answer.find("They took").unwrap();
+    assert!(answer.find("starts at").unwrap() < cost, "cost comes last: {answer}");
+}
+
+#[test]
 fn starts_that_the_probes_cannot_tell_apart_are_not_told_apart() {
     let study = Study {
         cases: vec![
