@@ -5,6 +5,8 @@ use cgaft::loading::{Grip, Stretching};
 use cgaft::material::Material;
 use cgaft::mesh::cut::Crack;
 use cgaft::mesh::sites::Layout;
+use cgaft::mesh::solid;
+use cgaft::mesh::solid::sites::{Frame, Outline, Sites};
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
 use cgaft::solver::{Settings, Solver, TimeStep, Until};
@@ -95,4 +97,33 @@ fn broken_bonds(bencher: Bencher, element: u16) {
 #[divan::bench(args = [1, 10])]
 fn set_up(bencher: Bencher, element: u16) {
     bencher.bench_local(|| solver(element));
+}
+
+/// A film of 400 blocks of a thousand atoms in elements, or a block of as many atoms; bonds as in the source, or to 2.5 sigma.
+#[divan::bench(args = [(10, 0.34 / 0.2277), (1, 0.34 / 0.2277), (1, 2.5)])]
+fn forces_on_solids(bencher: Bencher, (element, cutoff): (u16, f64)) {
+    let shape = LennardJones {
+        epsilon: 1.0,
+        sigma: 1.0,
+    };
+    let law = CutPotential::new(shape, cutoff, AtCutoff::Truncated);
+    let material = Material::face_centred_cubic(Interaction::LennardJones(law), 1.0).expect("the potential binds");
+    let extent = if element > 1 { [200, 200, 10] } else { [74; 3] };
+    let mesh = solid::Solid::new(&solid::Plan {
+        sites: Sites {
+            outline: Outline::Rhombohedron(extent),
+            frame: Frame::of_blocks(material.spacing),
+            removed: vec![],
+        },
+        element,
+        regions: vec![],
+        spacing: material.spacing,
+    });
+    let mut position = mesh.node_positions();
+    let mut force = mesh.node_positions();
+    let atoms = mesh.site_count();
+    let mut forces = cgaft::forces::solid::Forces::new(mesh, material);
+    bencher.counter(ItemsCount::new(atoms)).bench_local(|| {
+        forces.compute(&mut position, &mut force).expect("the lattice is sound");
+    });
 }

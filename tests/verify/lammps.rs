@@ -1,6 +1,7 @@
 //! The same specimen in LAMMPS: energies, forces and trajectories.
 
 mod program;
+mod solids;
 
 use std::fs::{self, File};
 use std::process::Command;

@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::fs;
 
-use super::{Program, Workspace, assert_same_results, files, table, wait_for};
+use super::ranks::{computed, ranks};
+use super::{PATIENCE, Program, Workspace, assert_same_results, files, table, wait_for};
 
 const SOLID: &str = include_str!("../../studies/solid.yaml");
 
@@ -74,4 +75,16 @@ fn a_solid_that_is_killed_goes_on_to_the_same_bytes() {
     program.kill();
     parted.cgaft("run", &["--only", "mixed"]).succeeded();
     assert_same_results(&parted.case("mixed"), &whole.case("mixed"));
+}
+
+#[test]
+fn any_number_of_ranks_and_threads_computes_a_solid_to_the_same_bytes() {
+    let place = workspace("", "");
+    let (run, case) = computed(&place);
+    for (count, threads) in [(1, "2"), (2, "1"), (3, "2"), (8, "1")] {
+        let into = place.path(&format!("{count} ranks"));
+        let job = &mut ranks(count, &case, &into, &["--threads", threads]);
+        Program::start(job, &place).wait(PATIENCE).succeeded();
+        assert_same_results(&into, &run);
+    }
 }
