@@ -7,6 +7,7 @@ mod duplicates;
 mod expansion;
 mod figures;
 mod identity;
+mod kinds;
 mod label;
 mod name;
 mod named_cases;
@@ -126,6 +127,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
     if content.sweep.right().is_some() {
         duplicates::refuse(&cases, &origins, findings);
     }
+    kinds::refuse(study, &cases, &origins, findings);
     findings.forget_common_cases(number);
     if !findings.is_empty() {
         return Err(study.error(findings));

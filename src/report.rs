@@ -17,6 +17,7 @@ mod resolution;
 mod scaling;
 mod side_by_side;
 mod slab;
+pub mod solid;
 mod study;
 mod sweep;
 mod table;
@@ -105,7 +106,7 @@ impl Analysed<'_> {
 
     /// Time that processors worked, s.
     fn core_seconds(&self) -> Option<f64> {
-        self.result.manifest.core_seconds
+        self.result.core_seconds()
     }
 
     /// What a simulated picosecond costs, in seconds of one core.
@@ -123,14 +124,21 @@ impl Analysed<'_> {
 
 /// Writes `report.html`, `report.md`, `tables/` and `figures/` into a folder. Equal inputs give equal bytes.
 pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
-    let cases = analysed(&study.cases);
-    let others: Vec<Vec<Analysed>> = study.others.iter().map(|other| analysed(&other.cases)).collect();
-    let panels = side_by_side::panels(study, &cases, &others);
     for part in ["tables", "figures"] {
         let path = folder.join(part);
         fs::create_dir_all(&path).map_err(|source| ReportError::Write { path, source })?;
     }
     remove_old(folder)?;
+    match study.cases.iter().any(|case| case.solid.is_some()) {
+        true => solid::write(study, folder),
+        false => write_slabs(study, folder),
+    }
+}
+
+fn write_slabs(study: &Study, folder: &Path) -> Result<(), ReportError> {
+    let cases = analysed(&study.cases);
+    let others: Vec<Vec<Analysed>> = study.others.iter().map(|other| analysed(&other.cases)).collect();
+    let panels = side_by_side::panels(study, &cases, &others);
     let scaling = scaling::findings(study, &cases);
     let mut tables = tables::all(&cases, &study.comparisons, &panels, scaling.as_ref())?;
     for table in &mut tables {
@@ -244,7 +252,7 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
     for entry in fs::read_dir(&figures).map_err(|source| failed(&figures, source))? {
         let path = entry.map_err(|source| failed(&figures, source))?.path();
         let name = path.file_name().and_then(|name| name.to_str()).unwrap_or_default();
-        if figures::is_of_a_report(name) || picture::is_of_a_report(name) {
+        if figures::is_of_a_report(name) || solid::is_of_a_report(name) || picture::is_of_a_report(name) {
             fs::remove_file(&path).map_err(|source| failed(&path, source))?;
         }
     }

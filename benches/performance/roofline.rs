@@ -109,8 +109,10 @@ const BYTES_A_PARTNER: f64 = 4.0;
 
 fn need(name: &str) -> Need {
     let case = specimens::case("specimens", name);
-    let material: Material = setup::material(&case).expect("the material is sound");
-    let mesh = Mesh::new(&setup::mesh_plan(&case, &material).expect("the mesh is sound"));
+    let slab = case.slab().expect("it is a slab");
+    let material: Material = setup::slab::material(slab).expect("the material is sound");
+    let plan = setup::slab::mesh_plan(slab, &case.run.until, &material);
+    let mesh = Mesh::new(&plan.expect("the mesh is sound"));
     let cutoff = material.interaction.cutoff() / material.spacing;
     let vectors = triangular::half_vectors_within(cutoff).len() as f64;
     let interfaces = Interfaces::new(&mesh, cutoff);

@@ -23,7 +23,9 @@ pub fn case(of: &str, name: &str) -> Case {
 }
 
 pub fn solver(of: &str, name: &str) -> Solver {
-    setup::solver(&case(of, name)).expect("the case starts")
+    let case = case(of, name);
+    let slab = case.slab().expect("it is a slab");
+    setup::slab::solver(&case, slab).expect("the case starts")
 }
 
 /// What a step takes, and what takes it.

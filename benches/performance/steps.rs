@@ -58,7 +58,8 @@ pub fn measure_set_up() {
             let mut elements = 0;
             let once = || {
                 clock::core_seconds(|| {
-                    let solver = cgaft::setup::solver(&case).expect("the case starts");
+                    let solver =
+                        cgaft::setup::slab::solver(&case, case.slab().expect("it is a slab")).expect("the case starts");
                     elements = solver.mesh().elements.len();
                 })
             };

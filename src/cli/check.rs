@@ -52,14 +52,11 @@ pub fn check(common: &Common) -> Result<u8, CliError> {
     terminal.result(&json, || {
         let mut rows = vec![HEAD.map(str::to_owned).to_vec()];
         rows.extend(sized.iter().map(|(name, estimate)| row(name, estimate)));
-        let mut specimens = vec![specimen::HEAD.map(str::to_owned).to_vec()];
-        specimens.extend(laid.iter().map(|(planned, laid)| specimen::row(&planned.name, laid)));
         let total: f64 = estimates.iter().map(|estimate| estimate.seconds).sum();
         format!(
-            "{}\n{NOTES}\n{}\n{}\n{}{}: no mistakes; {}, about {} on one core\n",
+            "{}\n{NOTES}\n{}\n{}{}: no mistakes; {}, about {} on one core\n",
             format::table(&rows),
-            format::table(&specimens),
-            specimen::NOTES,
+            specimen::tables(&laid),
             warnings
                 .iter()
                 .map(|warning| format!("{warning}\n"))
@@ -126,7 +123,7 @@ fn to_json(planned: &PlannedCase, estimate: &Estimate) -> serde_json::Value {
         "nodes": estimate.nodes,
         "elements": estimate.elements,
         "represented_atoms": estimate.represented_atoms,
-        "leftover_share": estimate.specimen.leftovers.map(|leftovers| leftovers.share()),
+        "leftover_share": estimate.specimen.leftover_share(),
         "specimen": specimen::to_json(&estimate.specimen),
         "steps": estimate.steps,
         "time_step_ps": estimate.time_step,

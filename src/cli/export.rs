@@ -43,17 +43,23 @@ pub fn lammps(arguments: &Arguments) -> Result<u8, CliError> {
     let planned = survey::named(&plan, &arguments.case)?;
     let refused = |why: SetupError| plan.refuse([(planned.name.as_str(), why.refusal())]);
     let case = &planned.case;
-    let material = setup::material(case).map_err(refused)?;
-    let solver = setup::solver(case).map_err(refused)?;
-    let model = Model::new(case, &material, solver.mesh())
+    let slab = case.slab().ok_or_else(|| {
+        CliError::Input(format!(
+            "case `{}` is a solid, and the input of LAMMPS is written for slabs; export a case of the triangular lattice",
+            planned.name
+        ))
+    })?;
+    let material = setup::slab::material(slab).map_err(refused)?;
+    let solver = setup::slab::solver(case, slab).map_err(refused)?;
+    let model = Model::new(case, slab, &material, solver.mesh())
         .map_err(|error| CliError::Input(format!("case `{}`: {error}", planned.name)))?;
 
     let [script_file, data_file] = ["in", "data"].map(|kind| format!("{kind}.{}", planned.name));
     let [script_path, data_path] = [&script_file, &data_file].map(|file| arguments.into.join(file));
     let script = model.script(
-        &head(&plan, planned, &script_file),
+        &head(&plan, planned, slab, &script_file),
         &planned.name,
-        &motion(case, &solver),
+        &motion(case, slab, &solver),
     );
     let title = format!(
         "LAMMPS data of case `{}` of study `{}`, for {script_file}",
@@ -106,7 +112,7 @@ fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<(
 }
 
 /// What the script is, and where its run differs from that of cgaft.
-fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
+fn head(plan: &Plan, planned: &PlannedCase, slab: &case::Slab, script_file: &str) -> Vec<String> {
     let until = &planned.case.run.until;
     let mut head = vec![
         format!(
@@ -124,7 +130,7 @@ fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
             "The time step is the one cgaft starts with; cgaft shortens it should the specimen stiffen.".to_owned(),
         );
     }
-    let case::Loading::StrainRate { sponge, damping, .. } = planned.case.loading;
+    let case::Loading::StrainRate { sponge, damping, .. } = slab.loading;
     if sponge.is_some() {
         head.push(String::new());
         head.push("The sponge layers of the case are left out: its waves come back from the grips.".to_owned());
@@ -149,8 +155,8 @@ fn head(plan: &Plan, planned: &PlannedCase, script_file: &str) -> Vec<String> {
     head
 }
 
-fn motion(case: &case::Case, solver: &Solver) -> Motion {
-    let case::Loading::StrainRate { rate, .. } = case.loading;
+fn motion(case: &case::Case, slab: &case::Slab, solver: &Solver) -> Motion {
+    let case::Loading::StrainRate { rate, .. } = slab.loading;
     let [time_step, _] = solver.time_step();
     let until = Until {
         strain: case.run.until.strain,
@@ -161,7 +167,7 @@ fn motion(case: &case::Case, solver: &Solver) -> Motion {
     let interval = |time: f64| ((time / time_step).round() as u64).clamp(1, steps.max(1));
     Motion {
         rate,
-        grip: match case.specimen.grips {
+        grip: match slab.specimen.grips {
             case::Grips::Clamped => Grip::Clamped,
             case::Grips::Sliding => Grip::Sliding,
         },

@@ -13,7 +13,7 @@ pub use script::Motion;
 
 use crate::material::Material;
 use crate::mesh::Mesh;
-use crate::study::case::Case;
+use crate::study::case::{Case, Slab};
 use atom_types::AtomTypes;
 use pair_styles::PairStyles;
 
@@ -47,8 +47,8 @@ pub struct Model<'a> {
 }
 
 impl<'a> Model<'a> {
-    pub fn new(case: &Case, material: &Material, mesh: &'a Mesh) -> Result<Self, ExportError> {
-        let element = case.resolution.element;
+    pub fn new(case: &Case, slab: &Slab, material: &Material, mesh: &'a Mesh) -> Result<Self, ExportError> {
+        let element = case.element();
         if element != 1 {
             return Err(ExportError::NotAtoms { element });
         }
@@ -58,7 +58,7 @@ impl<'a> Model<'a> {
         Ok(Self {
             mesh,
             site_mass: material.site_mass,
-            styles: PairStyles::new(&case.material.potential, material)?,
+            styles: PairStyles::new(&slab.material.atoms.potential, material)?,
             types: AtomTypes::new(mesh, material.interaction.cutoff() / material.spacing),
         })
     }

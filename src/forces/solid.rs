@@ -179,6 +179,14 @@ impl Forces {
         self.interfaces.pairs[interface as usize]
     }
 
+    /// Parts that have a side along which atoms or parts of another size lie, ascending.
+    pub fn beside_others(&self) -> Vec<u32> {
+        let lonely = self.interfaces.lonely.iter().filter(|side| !side.is_free);
+        let mut parts: Vec<u32> = lonely.map(|side| side.element).collect();
+        parts.dedup();
+        parts
+    }
+
     /// How often neighbours were searched, and for how many seconds.
     pub fn search_cost(&self) -> (u64, f64) {
         (self.searches, self.search_time.as_secs_f64())

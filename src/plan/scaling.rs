@@ -1,7 +1,10 @@
 //! Cases that differ in what computes them: their results are the same to the bit, and only their costs differ.
 
 use super::{CaseId, PlannedCase, RunId};
-use crate::study::{Finding, Findings, Given, Growth, Study, case::Case};
+use crate::study::{
+    Finding, Findings, Given, Growth, Study,
+    case::{Body, Case, solid::Shape},
+};
 
 /// Widths that belong to as many ranks may differ by this, relative: meshes round them to whole rows.
 const SAME: f64 = 0.01;
@@ -44,8 +47,7 @@ pub fn resolve(study: &Study, cases: &[PlannedCase], findings: &Findings) -> Opt
             continue;
         };
         let growth = growth.with(ranks) / growth.with(ranks_of_first);
-        let width = first.case.specimen.width * growth;
-        if (case.case.specimen.width / width - 1.0).abs() > SAME || !alike_but_for_width(&case.case, &first.case) {
+        if !alike_but_for_growth(&case.case, &first.case, growth) {
             let message = format!("`{name}` and `{}` are not alike but for their ranks", first.name);
             refuse(
                 message,
@@ -57,8 +59,27 @@ pub fn resolve(study: &Study, cases: &[PlannedCase], findings: &Findings) -> Opt
     Some(growth)
 }
 
-fn alike_but_for_width(case: &Case, other: &Case) -> bool {
-    let mut case = case.clone();
-    case.specimen.width = other.specimen.width;
-    CaseId::of(&case) == CaseId::of(other)
+/// Whether a case is so many times another, in its width or in the blocks along one axis, and nothing else differs.
+fn alike_but_for_growth(case: &Case, other: &Case, growth: f64) -> bool {
+    let mut alike = case.clone();
+    match (&mut alike.body, &other.body) {
+        (Body::Slab(slab), Body::Slab(other)) => {
+            if (slab.specimen.width / (other.specimen.width * growth) - 1.0).abs() > SAME {
+                return false;
+            }
+            slab.specimen.width = other.specimen.width;
+        }
+        (Body::Solid(solid), Body::Solid(other)) => {
+            let blocks = |shape: Shape| match shape {
+                Shape::Blocks(blocks) => blocks.iter().map(|&number| f64::from(number)).product(),
+                Shape::Box { size, .. } => size.iter().product::<f64>(),
+            };
+            if (blocks(solid.specimen.shape) / (blocks(other.specimen.shape) * growth) - 1.0).abs() > SAME {
+                return false;
+            }
+            solid.specimen.shape = other.specimen.shape;
+        }
+        _ => return false,
+    }
+    CaseId::of(&alike) == CaseId::of(other)
 }

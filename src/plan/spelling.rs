@@ -1,9 +1,12 @@
 //! A case with the keys and units of a study file, every choice spelled out.
 
+mod slab;
+mod solid;
+
 use crate::{
     study::case::{
-        AtCutoff, Case, Crack, Edge, Execution, Grips, Lattice, Loading, MassMatrix, Mode, NotchEnd, Potential,
-        PotentialShape, Ramp, Region, RegionShape, Run, SnapshotInterval, Summation, TimeStep, Until,
+        AtCutoff, Body, Case, Execution, MassMatrix, Material, Potential, PotentialShape, Ramp, Run, Slab,
+        SnapshotInterval, Solid, Summation, TimeStep, Until,
     },
     units::{self, Dimension},
 };
@@ -12,47 +15,77 @@ use serde_json::{Map, Value, json};
 /// The case as it would be typed: what `explain_difference` compares. How it is carried out is not among it.
 pub fn spelled(case: &Case) -> Value {
     let Case {
-        material,
-        specimen,
-        resolution,
-        crack,
-        loading,
+        body,
         run,
         probes,
         snapshots,
         execution: _,
     } = case;
-    let Lattice::Triangular = specimen.lattice;
-    let regions: Vec<Value> = resolution.regions.iter().map(region).collect();
-    let mut whole = json!({
-        "material": {
-            "potential": potential(&material.potential),
-            "mass": quantity(material.mass, Dimension::Mass),
-            "thickness": length(material.thickness),
-        },
-        "specimen": {
-            "lattice": "triangular",
-            "length": length(specimen.length),
-            "width": length(specimen.width),
-            "block": specimen.block,
-            "grips": match specimen.grips {
-                Grips::Clamped => "clamped",
-                Grips::Sliding => "sliding",
-            },
-        },
-        "resolution": { "element": resolution.element, "regions": regions },
-    });
-    // The order of a study file: the crack stands between its specimen and its load.
-    if let Some(crack) = crack {
-        whole["crack"] = notch(crack);
-    }
-    whole["loading"] = load(loading);
+    let mut whole = match body {
+        Body::Slab(slab) => slab_spelled(slab),
+        Body::Solid(solid) => solid_spelled(solid),
+    };
+    let gauges = whole.as_object_mut().and_then(|whole| whole.shift_remove("gauges"));
     whole["run"] = running(run);
     whole["probes"] = json!({ "every": time(probes.every) });
+    if let Some(gauges) = gauges {
+        whole["gauges"] = gauges;
+    }
     if let Some(every) = snapshots.every {
         whole["snapshots"] = json!({ "every": interval(every) });
     }
     whole
+}
+
+fn slab_spelled(slab: &Slab) -> Value {
+    let Slab {
+        material,
+        specimen,
+        resolution,
+        crack,
+        loading,
+    } = slab;
+    let regions: Vec<Value> = resolution.regions.iter().map(slab::region).collect();
+    let mut whole = json!({
+        "material": atoms(&material.atoms),
+        "specimen": slab::specimen(specimen),
+        "resolution": { "element": resolution.element, "regions": regions },
+    });
+    whole["material"]["thickness"] = length(material.thickness);
+    // The order of a study file: the crack stands between its specimen and its load.
+    if let Some(crack) = crack {
+        whole["crack"] = slab::notch(crack);
+    }
+    whole["loading"] = slab::load(loading);
+    whole
+}
+
+fn solid_spelled(solid: &Solid) -> Value {
+    let spelled = solid::spelled(solid);
+    let parts = [
+        ("material", Some(atoms(&solid.material))),
+        ("specimen", Some(spelled.specimen)),
+        ("resolution", Some(spelled.resolution)),
+        ("notch", spelled.notch),
+        ("held", spelled.held),
+        ("loading", Some(spelled.loading)),
+        ("gauges", spelled.gauges),
+    ];
+    let given = parts
+        .into_iter()
+        .filter_map(|(key, value)| Some((key.to_owned(), value?)));
+    given.collect::<Map<_, _>>().into()
+}
+
+fn atoms(material: &Material) -> Value {
+    json!({ "potential": potential(&material.potential), "mass": quantity(material.mass, Dimension::Mass) })
+}
+
+fn ramp(ramp: Ramp) -> &'static str {
+    match ramp {
+        Ramp::InitialVelocity => "initial-velocity",
+        Ramp::AtRest => "at-rest",
+    }
 }
 
 /// How a case is carried out, as it would be typed into `run`.
@@ -109,62 +142,6 @@ fn potential(potential: &Potential) -> Value {
         AtCutoff::Smooth { from } => json!({ "smooth": { "from": length(from), "to": length(potential.cutoff) } }),
     };
     json!({ name: values })
-}
-
-fn region(region: &Region) -> Value {
-    let element = region.element;
-    match region.shape {
-        RegionShape::Band { half_width } => json!({ "band": { "half-width": length(half_width), "element": element } }),
-        RegionShape::Box { from, to } => {
-            json!({ "box": { "from": from.map(length), "to": to.map(length), "element": element } })
-        }
-        RegionShape::Disc { center, radius } => {
-            json!({ "disc": { "center": center.map(length), "radius": length(radius), "element": element } })
-        }
-    }
-}
-
-fn notch(crack: &Crack) -> Value {
-    let Crack {
-        edge,
-        length: extent,
-        end,
-    } = *crack;
-    let mut spelled = match edge {
-        Edge::Left => json!({ "edge": "left" }),
-        Edge::Right => json!({ "edge": "right" }),
-        Edge::None { center } => json!({ "edge": "none", "center": length(center) }),
-    };
-    spelled["length"] = length(extent);
-    if let Some(end) = end {
-        spelled["end"] = match end {
-            NotchEnd::Corner => "corner".into(),
-            NotchEnd::MidEdge => "mid-edge".into(),
-        };
-    }
-    spelled
-}
-
-fn load(loading: &Loading) -> Value {
-    let Loading::StrainRate {
-        mode: Mode::I,
-        rate,
-        ramp,
-        sponge,
-        damping,
-    } = *loading;
-    let ramp = match ramp {
-        Ramp::InitialVelocity => "initial-velocity",
-        Ramp::AtRest => "at-rest",
-    };
-    let mut spelled = json!({ "mode": "I", "rate": quantity(rate, Dimension::Rate), "ramp": ramp });
-    if let Some(width) = sponge {
-        spelled["sponge"] = length(width);
-    }
-    if let Some(rate) = damping {
-        spelled["damping"] = quantity(rate, Dimension::Rate);
-    }
-    json!({ "strain-rate": spelled })
 }
 
 fn running(run: &Run) -> Value {

@@ -39,11 +39,15 @@ fn only_id(text: &str) -> CaseId {
 fn a_case_changes_only_what_it_names() {
     let cases = with("cases:\n  A: {}\n  B: {loading: {strain-rate: {rate: 9.2e6 /s}}, crack: {length: 225 nm}}\n");
     let [a, b] = [&cases[0].case, &cases[1].case];
-    let crate::study::case::Loading::StrainRate { rate, ramp, .. } = b.loading;
+    let crate::study::case::Loading::StrainRate { rate, ramp, .. } = b.slab().unwrap().loading;
     assert_eq!(rate, 9.2e-6);
     assert_eq!(ramp, crate::study::case::Ramp::AtRest);
-    assert_eq!(b.crack.as_ref().unwrap().length, 225.0);
-    assert_eq!((&a.material, &a.specimen, &a.run), (&b.material, &b.specimen, &b.run));
+    assert_eq!(b.slab().unwrap().crack.as_ref().unwrap().length, 225.0);
+    let parts = |case: &Case| {
+        let slab = case.slab().unwrap().clone();
+        (slab.material, slab.specimen, case.run.clone())
+    };
+    assert_eq!(parts(a), parts(b));
 }
 
 #[test]
@@ -51,7 +55,7 @@ fn a_choice_of_another_kind_replaces_the_whole() {
     let cases = with(
         "cases:\n  A: {material: {potential: {morse: {depth: 0.4 eV, decay: 13.6 /nm, distance: 0.25 nm, cutoff: 0.4 nm}}}}\n",
     );
-    let shape = &cases[0].case.material.potential.shape;
+    let shape = &cases[0].case.slab().unwrap().material.atoms.potential.shape;
     assert!(matches!(
         shape,
         crate::study::case::PotentialShape::Morse { depth: 0.4, .. }
@@ -61,7 +65,7 @@ fn a_choice_of_another_kind_replaces_the_whole() {
 #[test]
 fn a_smooth_end_sets_the_cutoff() {
     let cases = planned(&base().replace("cutoff: 0.34 nm", "at-cutoff: {smooth: {from: 0.342 nm, to: 0.433 nm}}"));
-    assert_eq!(cases[0].case.material.potential.cutoff, 0.433);
+    assert_eq!(cases[0].case.slab().unwrap().material.atoms.potential.cutoff, 0.433);
 }
 
 #[test]
@@ -84,8 +88,8 @@ fn a_sweep_multiplies_every_case_and_its_last_line_varies_fastest() {
         "B-element-10-length-225nm",
     ];
     assert_eq!(names(&cases), expected);
-    assert_eq!(cases[2].case.resolution.element, 10);
-    assert_eq!(cases[3].case.crack.as_ref().unwrap().length, 225.0);
+    assert_eq!(cases[2].case.element(), 10);
+    assert_eq!(cases[3].case.slab().unwrap().crack.as_ref().unwrap().length, 225.0);
 }
 
 #[test]
@@ -199,7 +203,10 @@ fn identity_ignores_how_a_case_is_carried_out_and_what_is_shown_of_it() {
 fn cases_that_differ_in_ranks_or_threads_alone_have_runs_of_their_own() {
     let id = only_id(&base());
     let cases = with("sweep:\n  run.ranks: [1, 2]\n");
-    assert_eq!(cases[0].case.specimen, cases[1].case.specimen);
+    assert_eq!(
+        cases[0].case.slab().unwrap().specimen,
+        cases[1].case.slab().unwrap().specimen
+    );
     let ids: Vec<String> = cases.iter().map(|case| case.id.to_string()).collect();
     assert_eq!(ids, [format!("{id}-r1"), format!("{id}-r2")]);
     let cases = with(
@@ -316,8 +323,8 @@ proptest! {
         for (index, case) in plan.iter().enumerate() {
             let length = index % (steps as usize + 1);
             let element = index / (steps as usize + 1) % elements.len();
-            prop_assert_eq!(case.case.resolution.element, elements[element]);
-            prop_assert_eq!(case.case.crack.as_ref().unwrap().length, f64::from(first) + 0.5 + length as f64);
+            prop_assert_eq!(case.case.element(), elements[element]);
+            prop_assert_eq!(case.case.slab().unwrap().crack.as_ref().unwrap().length, f64::from(first) + 0.5 + length as f64);
         }
         prop_assert_eq!(plan, planned(&text));
     }

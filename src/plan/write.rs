@@ -17,8 +17,10 @@ pub fn write_case(planned: &PlannedCase) -> String {
         run.extend(spelled_execution(&planned.case.execution));
     }
     let mut observe: Vec<Value> = planned.tables.iter().map(|table| json!(table)).collect();
-    if let Some(snapshots) = base.as_object_mut().and_then(|base| base.shift_remove("snapshots")) {
-        observe.push(json!({ "snapshots": snapshots }));
+    for key in ["gauges", "snapshots"] {
+        if let Some(values) = base.as_object_mut().and_then(|base| base.shift_remove(key)) {
+            observe.push(json!({ key: values }));
+        }
     }
     base["observe"] = observe.into();
     let whole = json!({ "cgaft": 1, "study": planned.name, "base": base, "cases": { &planned.name: {} } });

@@ -3,29 +3,29 @@
 use std::fmt;
 use std::sync::Arc;
 
-use crate::record::frames::{FieldMesh, Frame};
+use crate::record::frames::{FieldMesh, Frame, Vector};
 use crate::record::{FrameReader, RecordError};
 
 /// A mesh and frames on it in order of time, of which a large run's are read one by one.
 #[derive(Clone)]
-pub struct Film {
-    pub mesh: FieldMesh,
-    frames: Frames,
+pub struct Film<V: Vector = [f64; 2]> {
+    pub mesh: FieldMesh<V>,
+    frames: Frames<V>,
 }
 
 #[derive(Clone)]
-enum Frames {
-    Held(Vec<Frame>),
-    Stored(Arc<FrameReader>),
+enum Frames<V: Vector> {
+    Held(Vec<Frame<V>>),
+    Stored(Arc<FrameReader<V>>),
 }
 
-impl Film {
-    pub fn held(mesh: FieldMesh, frames: Vec<Frame>) -> Self {
+impl<V: Vector> Film<V> {
+    pub fn held(mesh: FieldMesh<V>, frames: Vec<Frame<V>>) -> Self {
         let frames = Frames::Held(frames);
         Self { mesh, frames }
     }
 
-    pub fn stored(mesh: FieldMesh, reader: FrameReader) -> Self {
+    pub fn stored(mesh: FieldMesh<V>, reader: FrameReader<V>) -> Self {
         let frames = Frames::Stored(Arc::new(reader));
         Self { mesh, frames }
     }
@@ -43,7 +43,7 @@ impl Film {
         }
     }
 
-    pub fn frame(&self, index: usize) -> Result<Frame, RecordError> {
+    pub fn frame(&self, index: usize) -> Result<Frame<V>, RecordError> {
         match &self.frames {
             Frames::Held(frames) => Ok(frames[index].clone()),
             Frames::Stored(reader) => reader.frame(index),
@@ -58,7 +58,7 @@ impl Film {
     }
 }
 
-impl fmt::Debug for Film {
+impl<V: Vector> fmt::Debug for Film<V> {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         write!(f, "Film of {} frames", self.moments().len())
     }

@@ -1,16 +1,19 @@
 //! The page: everything a reader needs, in one file that asks nothing of the network.
 
+mod text;
+
 use super::chart::{Chart, Drawing};
 use super::overview::{self, Group, Row};
 use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::table::Table;
 use super::tables::{cheapest, comparison, specimen, speed_against_error};
-use super::{Analysed, ReportError, Study, agreement, method, numbers, scaling, verdict};
+use super::{Analysed, CaseResult, ReportError, Study, agreement, method, numbers, scaling, sweep, verdict};
 use crate::plan::Comparison;
 use crate::units::amounts::duration;
 use minijinja::syntax::SyntaxConfig;
-use minijinja::{AutoEscape, Environment, HtmlEscape, Value, context};
+use minijinja::{AutoEscape, Environment, Value, context};
+use text::{base64, breakable, indented, markdown_cell};
 
 /// Tables longer than this are linked instead of shown.
 const SHOWN_ROWS: usize = 60;
@@ -47,16 +50,6 @@ impl Page<'_> {
     }
 
     fn render(&self, name: &'static str, template: &'static str) -> Result<String, ReportError> {
-        let mut environment = Environment::new();
-        environment.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
-        environment.set_auto_escape_callback(|name| match name.ends_with(".html") {
-            true => AutoEscape::Html,
-            false => AutoEscape::None,
-        });
-        environment.add_filter("cell", markdown_cell);
-        environment.add_filter("breakable", breakable);
-        environment.add_filter("block", indented);
-        environment.add_template(name, template)?;
         let mut versions = self.cases.iter().map(|case| case.result.manifest.version.as_str());
         let page = context! {
             title => self.study.title.as_ref().unwrap_or(&self.study.name),
@@ -78,16 +71,18 @@ impl Page<'_> {
             galleries => list(self.galleries, gallery),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
             tables => list(self.tables, table),
-            cases => list(self.cases, case),
+            cases => list(self.cases, |analysed| {
+                let mut lines = provenance(analysed.result);
+                lines.extend(analysed.findings.speed_window.map(|time| ("speed fitted over", picoseconds(time))));
+                case(analysed.result, lines)
+            }),
             notes => list(&method::notes(self.cases), pair),
             style => Value::from_safe_string(include_str!("templates/style.css").to_owned()),
             version => versions.find(|version| !version.is_empty()),
         };
-        Ok(environment.get_template(name)?.render(page)?)
+        rendered(name, template, page)
     }
-}
 
-impl Page<'_> {
     /// Where there are many cases each group is a table of its own.
     fn groups(&self) -> Vec<Group> {
         match self.cases.len() > MOST_ABREAST {
@@ -100,9 +95,13 @@ impl Page<'_> {
         match self.scaling.and_then(scaling::verdict) {
             Some(gain) => vec![format!("{} {gain}", verdict::done(self.cases))],
             None => {
-                let mut sentences = cheapest::recommendations(&speed_against_error::rows(self.cases));
-                sentences.extend(verdict::verdict(self.cases));
-                sentences
+                let advice = cheapest::recommendations(&speed_against_error::rows(self.cases));
+                let verdict = verdict::verdict(self.cases);
+                // A sweep asks how something depends on its keys, other studies of many meshes which of them to take.
+                match sweep::keys(self.cases).is_empty() {
+                    true => [advice, verdict].concat(),
+                    false => [verdict, advice].concat(),
+                }
             }
         }
     }
@@ -130,6 +129,69 @@ impl Page<'_> {
             rows => list(&lines, |line| line.cells().to_vec().into()),
         }
     }
+}
+
+/// What the page of a study of solids is made from.
+pub struct Solids<'a> {
+    pub study: &'a Study,
+    pub cases: &'a [&'a CaseResult],
+    /// Its first sentences.
+    pub verdict: Vec<String>,
+    pub groups: Vec<Group>,
+    /// How its numbers came about.
+    pub notes: Vec<(&'static str, String)>,
+    pub tables: &'a [Table],
+    pub charts: &'a [Chart],
+    pub drawn: &'a [Drawing],
+    pub galleries: &'a [Gallery],
+}
+
+impl Solids<'_> {
+    pub fn html(&self) -> Result<String, ReportError> {
+        self.render("report.html", include_str!("templates/report.html"))
+    }
+
+    pub fn markdown(&self) -> Result<String, ReportError> {
+        self.render("report.md", include_str!("templates/report.md"))
+    }
+
+    fn render(&self, name: &'static str, template: &'static str) -> Result<String, ReportError> {
+        let mut versions = self.cases.iter().map(|case| case.manifest.version.as_str());
+        let page = context! {
+            title => self.study.title.as_ref().unwrap_or(&self.study.name),
+            name => &self.study.name,
+            question => self.study.question.as_ref(),
+            text => &self.study.text,
+            verdict => self.verdict.join(" "),
+            sentences => &self.verdict,
+            names => list(self.cases, |case| case.name.as_str().into()),
+            many => self.cases.len() > MOST_ABREAST,
+            groups => list(&self.groups, group),
+            galleries => list(self.galleries, gallery),
+            charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
+            tables => list(self.tables, table),
+            cases => list(self.cases, |result| case(result, provenance(result))),
+            notes => list(&self.notes, pair),
+            panels => Vec::<Value>::new(),
+            style => Value::from_safe_string(include_str!("templates/style.css").to_owned()),
+            version => versions.find(|version| !version.is_empty()),
+        };
+        rendered(name, template, page)
+    }
+}
+
+fn rendered(name: &'static str, template: &'static str, page: Value) -> Result<String, ReportError> {
+    let mut environment = Environment::new();
+    environment.set_syntax(SyntaxConfig::builder().trim_blocks(true).lstrip_blocks(true).build()?);
+    environment.set_auto_escape_callback(|name| match name.ends_with(".html") {
+        true => AutoEscape::Html,
+        false => AutoEscape::None,
+    });
+    environment.add_filter("cell", markdown_cell);
+    environment.add_filter("breakable", breakable);
+    environment.add_filter("block", indented);
+    environment.add_template(name, template)?;
+    Ok(environment.get_template(name)?.render(page)?)
 }
 
 /// A list for the template.
@@ -202,23 +264,23 @@ fn row(row: &Row) -> Value {
     context! { label => &row.label, cells => row.cells.clone() }
 }
 
-fn case(case: &Analysed) -> Value {
-    let failure = case.result.failure.as_ref();
+fn case(case: &CaseResult, provenance: Vec<(&'static str, String)>) -> Value {
+    let failure = case.failure.as_ref();
     context! {
-        name => case.name(),
-        resolved => &case.result.resolved,
+        name => &case.name,
+        resolved => &case.resolved,
         failure => failure.map(|failure| context! { reason => &failure.reason, log => &failure.log_tail }),
-        run => list(&provenance(case), pair),
+        run => list(&provenance, pair),
         files => files(case),
     }
 }
 
 /// The files of a published run that a person opens; they stand beside the page.
-fn files(case: &Analysed) -> Vec<&'static str> {
+fn files(case: &CaseResult) -> Vec<&'static str> {
     let mut files = vec!["case.yaml", "manifest.json", "log.txt", "series.h5"];
-    files.extend(case.result.film.as_ref().map(|_| "fields.vtkhdf"));
+    files.extend(case.has_pictures().then_some("fields.vtkhdf"));
     files.push("checkpoint.h5");
-    match case.result.manifest.state.as_str() {
+    match case.manifest.state.as_str() {
         "done" => files,
         _ => Vec::new(),
     }
@@ -229,13 +291,12 @@ fn pair((label, value): &(&'static str, String)) -> Value {
 }
 
 /// How and where a case ran; what is not known is left out.
-fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
-    let manifest = &case.result.manifest;
-    let picoseconds = |value: f64| format!("{} ps", numbers::significant(value, 4));
+fn provenance(case: &CaseResult) -> Vec<(&'static str, String)> {
+    let manifest = &case.manifest;
     let lines = [
         ("state", Some(manifest.state.clone())),
         ("ended because", manifest.end_reason.clone()),
-        ("case hash", Some(case.result.id.clone())),
+        ("case hash", Some(case.id.clone())),
         ("program", Some(manifest.version.clone())),
         ("commit", manifest.commit.clone()),
         ("host", manifest.host.clone()),
@@ -250,79 +311,18 @@ fn provenance(case: &Analysed) -> Vec<(&'static str, String)> {
         ),
         ("time step", manifest.time_step.map(picoseconds)),
         ("stability limit", manifest.stability_limit.map(picoseconds)),
-        ("speed fitted over", case.findings.speed_window.map(picoseconds)),
     ];
     let known = lines.into_iter().filter_map(|(label, value)| Some((label, value?)));
     known.filter(|line| !line.1.is_empty()).collect()
 }
 
-/// Text that stays within a cell of a Markdown table and is not taken for markup.
-fn markdown_cell(text: &str) -> String {
-    let mut safe = String::new();
-    for sign in text.chars() {
-        match sign {
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '&' => safe.push_str("&amp;"),
-            '\n' | '\r' => safe.push(' '),
-            '|' | '*' | '_' | '`' | '[' | ']' | '\\' | '#' => safe.extend(['\\', sign]),
-            sign => safe.push(sign),
-        }
-    }
-    safe
-}
-
-/// A name that a narrow column may break behind its dots, but for those of numbers.
-fn breakable(name: &str) -> Value {
-    let mut safe = String::new();
-    let mut parts = name.split('.').peekable();
-    while let Some(part) = parts.next() {
-        safe.push_str(&HtmlEscape(part).to_string());
-        match parts.peek() {
-            Some(next) if next.starts_with(|letter: char| letter.is_ascii_digit()) => safe.push('.'),
-            Some(_) => safe.push_str(".<wbr>"),
-            None => {}
-        }
-    }
-    Value::from_safe_string(safe)
-}
-
-/// Text as a block of code that nothing in it can end.
-fn indented(text: &str) -> String {
-    text.lines().map(|line| format!("    {line}\n")).collect()
-}
-
-/// Bytes as text for a data address. [RFC 4648]
-fn base64(bytes: &[u8]) -> String {
-    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let word = group.iter().fold(0, |word, &byte| word << 8 | u32::from(byte)) << (8 * (3 - group.len()));
-        for place in 0..4 {
-            let sign = SIGNS[(word >> (18 - 6 * place) & 63) as usize];
-            text.push(if place <= group.len() { char::from(sign) } else { '=' });
-        }
-    }
-    text
+fn picoseconds(value: f64) -> String {
+    format!("{} ps", numbers::significant(value, 4))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn base64_follows_the_test_vectors_of_the_standard() {
-        let vectors = [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foobar", "Zm9vYmFy"),
-        ];
-        vectors
-            .iter()
-            .for_each(|(plain, coded)| assert_eq!(base64(plain.as_bytes()), *coded));
-    }
 
     #[test]
     fn wide_tables_are_cut_into_pieces_that_paper_can_hold_each_with_the_names_of_its_rows() {
@@ -331,16 +331,5 @@ mod tests {
         let row = vec![text(10); 6];
         let pieces = pieces(&columns, &[row]);
         assert_eq!(pieces, [vec![0, 1], vec![0, 2, 3], vec![0, 4], vec![0, 5]]);
-    }
-
-    #[test]
-    fn names_break_behind_dots_but_numbers_do_not() {
-        assert_eq!(breakable("run.time-step").to_string(), "run.<wbr>time-step");
-        assert_eq!(breakable("rate-9.81e7 <a>").to_string(), "rate-9.81e7 &lt;a&gt;");
-    }
-
-    #[test]
-    fn markdown_cells_cannot_be_left() {
-        assert_eq!(markdown_cell("a|b\n<i>"), "a\\|b &lt;i&gt;");
     }
 }

@@ -1,12 +1,12 @@
 //! Pictures of the slabs: how they end, how they branch, and one of them through time.
 
 pub mod animation;
-mod drawing;
+pub mod drawing;
 mod indexed;
 mod margins;
 mod path;
-mod scale;
-mod shade;
+pub mod scale;
+pub mod shade;
 
 use std::path::Path;
 

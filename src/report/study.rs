@@ -1,6 +1,7 @@
 //! What a report is made from: plain values, whoever read them from where.
 
 use super::film::Film;
+use super::solid::Solid;
 use crate::analysis::series::{Series, Setting};
 use crate::domain::{Burden, MessageCost};
 use crate::plan::{Comparison, SideBySide, Stages, Swept};
@@ -71,10 +72,24 @@ pub struct CaseResult {
     pub series: Series,
     /// The pictures that the run took.
     pub film: Option<Film>,
+    /// Of a solid, which has no setting, series and film of a slab.
+    pub solid: Option<Solid>,
     pub manifest: Manifest,
     /// Hash of all that it has computed, where runs of one case are compared.
     pub digest: Option<String>,
     pub failure: Option<Failure>,
+}
+
+impl CaseResult {
+    /// Time that processors worked, s.
+    pub fn core_seconds(&self) -> Option<f64> {
+        self.manifest.core_seconds
+    }
+
+    /// Whether its run has left pictures.
+    pub fn has_pictures(&self) -> bool {
+        self.film.is_some() || self.solid.as_ref().is_some_and(|solid| solid.film.is_some())
+    }
 }
 
 /// A specimen as asked for and as laid out of whole elements; lengths in nm, asked before actual.

@@ -1,16 +1,19 @@
 //! What is allowed and should be known before a case is computed.
 
 use super::intervals::between_pictures;
-use super::material;
-use crate::study::case::{Case, Summation};
+use super::slab::material;
+use crate::study::case::{Body, Case, Slab, Summation};
 
 /// A sheet of atoms is about as thick as its atoms are apart; thicker or thinner than this many times, it is a slip of a unit.
 const UNLIKELY_THICKNESS: f64 = 20.0;
 
 /// Sentences about what a case has chosen, whose run takes about `time` (ps).
 pub fn cautions(case: &Case, time: f64) -> Vec<String> {
-    let found = [summation(case), thickness(case), pictures(case, time)];
-    found.into_iter().flatten().collect()
+    let own = match &case.body {
+        Body::Slab(slab) => [summation(case.run.summation), thickness(slab)],
+        Body::Solid(_) => [patches(case.run.summation), None],
+    };
+    own.into_iter().flatten().chain(pictures(case, time)).collect()
 }
 
 /// Pictures that the run ends before.
@@ -23,9 +26,9 @@ fn pictures(case: &Case, time: f64) -> Option<String> {
     ))
 }
 
-fn thickness(case: &Case) -> Option<String> {
-    let thickness = case.material.thickness;
-    let spacings = thickness / material(case).ok()?.spacing;
+fn thickness(slab: &Slab) -> Option<String> {
+    let thickness = slab.material.thickness;
+    let spacings = thickness / material(slab).ok()?.spacing;
     let is_likely = (1.0 / UNLIKELY_THICKNESS..UNLIKELY_THICKNESS).contains(&spacings);
     (!is_likely).then(|| {
         format!(
@@ -35,8 +38,8 @@ fn thickness(case: &Case) -> Option<String> {
     })
 }
 
-fn summation(case: &Case) -> Option<String> {
-    Some(match case.run.summation {
+fn summation(rule: Summation) -> Option<String> {
+    Some(match rule {
         Summation::Exact | Summation::StrictGauss { .. } => return None,
         Summation::Gauss { points } => format!(
             "`summation: {{gauss: {points}}}` looks at some bonds of a string only: once bonds part the energy may drift; \
@@ -47,5 +50,14 @@ fn summation(case: &Case) -> Option<String> {
              3.92 GPa at 1 %), and the report gives no K that takes the moduli of the lattice"
                 .to_owned()
         }
+    })
+}
+
+/// Of a solid.
+fn patches(rule: Summation) -> Option<String> {
+    (rule == Summation::Nodal).then(|| {
+        "`summation: nodal` fails the patch test: an evenly strained solid is not at rest, and its moduli are not those of \
+         the lattice"
+            .to_owned()
     })
 }

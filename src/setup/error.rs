@@ -67,6 +67,10 @@ pub enum SetupError {
         element: u32,
         rows: i32,
     },
+    /// Cells per edge of a block.
+    BlockTooLarge {
+        element: u32,
+    },
     /// Of the crack, and of the longest that leaves a bond, nm.
     CrackTooLong {
         crack: f64,
@@ -99,6 +103,17 @@ pub enum SetupError {
         ranks: u32,
         needed: u64,
         present: u64,
+    },
+    /// How deep a face is that is held or moves, nm, and the cells per edge of the elements.
+    FaceTooThin {
+        depth: f64,
+        element: u32,
+    },
+    /// What a solid may be asked for and this version cannot compute.
+    NotThere {
+        subject: Subject,
+        message: &'static str,
+        help: &'static str,
     },
     Solver(#[from] SolverError),
 }
@@ -200,6 +215,11 @@ impl SetupError {
                 format!("use {rows} or less"),
             )
             .with(Subject::Width, "in this width"),
+            Self::BlockTooLarge { element } => Refusal::new(
+                Subject::Element,
+                format!("a block of {element} cells per edge is larger than any solid"),
+                "write for example 10",
+            ),
             Self::CrackTooLong { crack, longest } => Refusal::new(
                 Subject::Crack,
                 format!(
@@ -263,6 +283,15 @@ impl SetupError {
                 )
             }
             .with(Subject::Element, "with these elements"),
+            Self::FaceTooThin { depth, element } => Refusal::new(
+                Subject::Face,
+                format!(
+                    "no element lies whole within {depth:.3} nm of this face, where elements have {element} cells per edge: nothing \
+                     would be held or moved"
+                ),
+                "take more layers, or smaller elements there",
+            ),
+            Self::NotThere { subject, message, help } => Refusal::new(*subject, *message, *help),
             Self::Solver(SolverError::StepTooLong { given, limit }) => Refusal::new(
                 Subject::TimeStep,
                 format!(

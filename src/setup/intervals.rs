@@ -1,8 +1,8 @@
 //! Intervals against what they are made of.
 
-use super::SetupError;
+use super::{SetupError, solid};
 use crate::study::Subject;
-use crate::study::case::{Case, Loading, SnapshotInterval};
+use crate::study::case::{Body, Case, Loading, SnapshotInterval};
 
 /// Meshes of one study have steps of other lengths, so that some probes and pictures more than steps are no mistake; more than
 /// these a step are one.
@@ -11,7 +11,13 @@ const MOST_A_STEP: f64 = 10.0;
 /// Refuses probes and pictures that would come many times a step, rest that would be over between two probes, and damping that
 /// would take all motion out within a step. The time step in ps.
 pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
-    let Loading::StrainRate { damping, .. } = case.loading;
+    let damping = match &case.body {
+        Body::Slab(slab) => {
+            let Loading::StrainRate { damping, .. } = slab.loading;
+            damping
+        }
+        Body::Solid(_) => None,
+    };
     let step = ("a step", time_step);
     let part = ("a tenth of a step", time_step / MOST_A_STEP);
     let probe = ("the time between two probes", case.probes.every);
@@ -57,9 +63,15 @@ pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
 
 /// Time between two pictures, ps.
 pub fn between_pictures(case: &Case) -> Option<f64> {
-    let Loading::StrainRate { rate, .. } = case.loading;
-    case.snapshots.every.map(|interval| match interval {
-        SnapshotInterval::Strain(strain) => strain / rate,
-        SnapshotInterval::Time(time) => time,
-    })
+    let strain_rate = match &case.body {
+        Body::Slab(slab) => {
+            let Loading::StrainRate { rate, .. } = slab.loading;
+            Some(rate)
+        }
+        Body::Solid(solid) => solid::strain_rate(solid),
+    };
+    match case.snapshots.every? {
+        SnapshotInterval::Strain(strain) => strain_rate.map(|rate| strain / rate),
+        SnapshotInterval::Time(time) => Some(time),
+    }
 }

@@ -6,14 +6,14 @@ use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
 use super::recorder::{Recorded, Recorder, RowsOf};
-use super::{SetupError, shared_solver};
+use super::{SetupError, slab, solid};
 use crate::domain::{MessageCost, Ranks};
 use crate::plan::CaseId;
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
 use crate::solver::{self, Ending, Progress, RunError, Solver, SolverError};
 use crate::store::{Phase, Spent, StoreError};
-use crate::study::case::Case;
+use crate::study::case::{Body, Case};
 
 /// How a run ended and what it cost.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,7 +71,21 @@ pub fn run_case(
         threads,
         why: error.to_string(),
     })?;
-    pool.install(|| compute(case, || shared_solver(case, ranks), into, ranks, stop, tell, warn))
+    pool.install(|| match &case.body {
+        Body::Slab(slab) => {
+            let set_up = || slab::shared_solver(case, slab, ranks);
+            compute(case, set_up, into, ranks, stop, tell, warn)
+        }
+        Body::Solid(solid) => compute(
+            case,
+            || solid::solver(case, solid, ranks),
+            into,
+            ranks,
+            stop,
+            tell,
+            warn,
+        ),
+    })
 }
 
 fn compute<B: Recorded<D>, const D: usize>(

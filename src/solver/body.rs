@@ -102,7 +102,7 @@ pub trait Instruments<const D: usize>: Body<D> {
     fn read(&mut self, state: &mut State<D>, totals: &Totals) -> Option<Self::Reading>;
 
     /// What is broken; brings what elements hold to the first rank. All ranks must ask for it together.
-    fn picture(&mut self, state: &State<D>) -> Self::Broken;
+    fn picture(&mut self, state: &mut State<D>) -> Self::Broken;
 
     /// Interfaces that have left the intact path, ascending.
     fn open_interfaces(&self) -> Vec<u32>;

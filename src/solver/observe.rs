@@ -38,7 +38,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     }
 
     fn snapshot<O: Observer<B, D>>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
-        let broken = self.body.picture(&self.state);
+        let broken = self.body.picture(&mut self.state);
         self.gather_motion();
         if !self.ranks().is_first() {
             return Ok(());

@@ -27,7 +27,7 @@ use crate::material::Material;
 use crate::mesh::solid::Solid as Mesh;
 use crate::relaxation::{self, Elastic, Target};
 use crate::state::State;
-use broken::Broken;
+use broken::Bonds;
 
 /// What acts on a solid and what is read of it.
 pub struct Experiment {
@@ -74,7 +74,9 @@ pub struct Solid {
     setting: SolidSetting,
     measure: Measure,
     thermometer: Thermometer,
-    broken: Broken,
+    bonds: Bonds,
+    /// Interfaces that are open from the start: all where the potential reaches far.
+    open_at_start: usize,
     gauges: Vec<Gauge>,
 }
 
@@ -115,7 +117,8 @@ impl Solver<Solid, 3> {
         let solid = Solid {
             thermometer,
             setting,
-            broken: Broken::new(&forces),
+            bonds: Bonds::new(&forces),
+            open_at_start: forces.open_interfaces().len(),
             strain_at_rest: extension.strain(forces.domain(), &state.position),
             last_strain: 0.0,
             loading,

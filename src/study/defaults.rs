@@ -1,5 +1,6 @@
 //! What a study may leave out, in one place. Choices that decide a result (material, size, load) have no default.
 
+use super::case::solid::PulseShape;
 use super::case::{AtCutoff, Edge, Grips, Lattice, MassMatrix, Mode, Ramp, Summation, TimeStep};
 
 pub const AT_CUTOFF: AtCutoff = AtCutoff::Truncated;
@@ -9,6 +10,11 @@ pub const BLOCK: u32 = 10;
 pub const GRIPS: Grips = Grips::Clamped;
 pub const EDGE: Edge = Edge::Left;
 pub const MODE: Mode = Mode::I;
+pub const PULSE: PulseShape = PulseShape::HalfSine;
+/// Between a ball and its face, nm: farther than they reach.
+pub const GAP: f64 = 0.5;
+/// Of the thickness, each side.
+pub const SHARE: f64 = 0.5;
 pub const RAMP: Ramp = Ramp::InitialVelocity;
 pub const TIME_STEP: TimeStep = TimeStep::Auto { fraction: 0.5 };
 pub const SUMMATION: Summation = Summation::Exact;

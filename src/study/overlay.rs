@@ -40,15 +40,24 @@ macro_rules! field_by_field {
 }
 
 field_by_field! {
-    CaseFile { material specimen resolution crack loading run probes observe }
+    CaseFile { material specimen resolution crack notch held loading run probes observe }
     Material { potential mass thickness }
     LennardJones { epsilon sigma cutoff at_cutoff }
     Morse { depth decay distance cutoff at_cutoff }
     HarmonicBond { stiffness distance cutoff at_cutoff }
     Smooth { from to }
-    Specimen { lattice length width block grips }
+    Specimen { lattice length width blocks size orientation block grips }
+    Orientation { x z }
+    Slot { from to }
+    SeveredPlane { normal at from depth }
+    Held { faces layers depth }
     Resolution { element regions }
     StrainRate { mode rate ramp sponge damping }
+    MovingFace { face speed direction layers depth ramp }
+    Traction { face stress pressure rise_time }
+    OpposedTractions { axis thickness share stress pressure rise_time }
+    Pulse { face shape duration stress pressure }
+    Impact { face radius speed center gap }
     Run { until time_step summation mass relax ranks threads checkpoint_every }
     Relax { strain }
     Until { strain time crack_length arrest after_branch leaves_the_plane }
@@ -65,7 +74,17 @@ macro_rules! replaced {
     )*};
 }
 
-replaced! { u32 Lattice Grips Edge NotchEnd Mode Ramp TimeStep Summation MassMatrix Vec<Given<Region>> Vec<Given<Observe>> }
+replaced! {
+    u32 Lattice Grips Edge NotchEnd Mode Ramp TimeStep Summation MassMatrix Axis Face PulseShape Vec<Given<Face>>
+    Vec<Given<Region>> Vec<Given<Observe>>
+}
+
+/// A point, a vector or a direction is one value.
+impl<T: Clone> Overlay for [Given<T>; 3] {
+    fn overlay(&mut self, over: &Self) {
+        self.clone_from(over);
+    }
+}
 
 /// A case that names an edge lies at it: the middle of the notch inside that it starts from is none of its own.
 impl Overlay for Crack {
@@ -110,7 +129,24 @@ impl Overlay for AtCutoff {
 
 impl Overlay for Loading {
     fn overlay(&mut self, over: &Self) {
-        let (Loading::StrainRate(values), Loading::StrainRate(changes)) = (self, over);
-        values.overlay(changes);
+        match (self, over) {
+            (Loading::StrainRate(values), Loading::StrainRate(changes)) => values.overlay(changes),
+            (Loading::Velocity(values), Loading::Velocity(changes)) => values.overlay(changes),
+            (Loading::Traction(values), Loading::Traction(changes)) => values.overlay(changes),
+            (Loading::OpposedTractions(values), Loading::OpposedTractions(changes)) => values.overlay(changes),
+            (Loading::Pulse(values), Loading::Pulse(changes)) => values.overlay(changes),
+            (Loading::Impact(values), Loading::Impact(changes)) => values.overlay(changes),
+            (whatever, _) => *whatever = over.clone(),
+        }
+    }
+}
+
+impl Overlay for Notch {
+    fn overlay(&mut self, over: &Self) {
+        match (self, over) {
+            (Notch::Blocks(values), Notch::Blocks(changes)) => values.overlay(changes),
+            (Notch::Plane(values), Notch::Plane(changes)) => values.overlay(changes),
+            (whatever, _) => *whatever = over.clone(),
+        }
     }
 }

@@ -41,6 +41,8 @@ kinds! {
     Rate = OfRate,
     Stiffness = OfStiffness,
     InverseLength = OfInverseLength,
+    Velocity = OfVelocity,
+    Stress = OfStress,
     Fraction = OfFraction,
 }
 

@@ -37,6 +37,12 @@ pub enum Subject {
     Snapshots,
     Sponge,
     Damping,
+    /// The faces of a solid that are held or move.
+    Face,
+    /// What is cut in a solid.
+    Notch,
+    Summation,
+    Mass,
 }
 
 impl fmt::Display for Refusal {
@@ -116,6 +122,10 @@ impl Subject {
             }
             Self::Sponge => strain_rate(case)?.sponge.place().or(case.loading.place()),
             Self::Damping => strain_rate(case)?.damping.place().or(case.loading.place()),
+            Self::Face => case.held.place().or(case.loading.place()),
+            Self::Notch => case.notch.place(),
+            Self::Summation => case.run.right()?.summation.place().or(case.run.place()),
+            Self::Mass => case.run.right()?.mass.place().or(case.run.place()),
             Self::TimeStep => case.run.right()?.time_step.place().or(case.run.place()),
             Self::Probes => case.probes.right()?.every.place().or(case.probes.place()),
         }
@@ -123,8 +133,10 @@ impl Subject {
 }
 
 fn strain_rate(case: &CaseFile) -> Option<&StrainRate> {
-    let Loading::StrainRate(values) = case.loading.right()?;
-    Some(values)
+    match case.loading.right()? {
+        Loading::StrainRate(values) => Some(values),
+        _ => None,
+    }
 }
 
 /// The cutoff, or the end of a smooth one.

@@ -6,7 +6,10 @@ mod crack;
 mod material;
 mod resolution;
 mod run;
+mod slab;
+mod solid;
 mod specimen;
+mod strangers;
 
 use super::{
     case::Case,
@@ -48,33 +51,15 @@ impl Table {
 pub fn resolve(case: &Given<CaseFile>, name: &str, findings: &Findings) -> Option<Resolved> {
     let check = Check { findings, case: name };
     let (case, place) = check.section(case, Place::default())?;
-    let mut tables = tables(&case.observe);
-    let (material, spacing) = check.material(&case.material, place);
-    let element = case
-        .resolution
-        .right()
-        .and_then(|values| values.element.right().copied());
-    let specimen = check.specimen(&case.specimen, place, spacing, element);
-    let resolution = check.resolution(&case.resolution, place, &specimen);
-    let crack = check.crack(&case.crack, &specimen);
-    let loading = check.loading(&case.loading, place, &specimen);
-    let (run, until) = check.run(&case.run, place);
-    if let (Some(until), Some(crack)) = (until, &crack) {
-        check.stops(until, crack.as_ref(), &specimen);
-    }
+    let (body, run, tables) = match strangers::is_solid(&case) {
+        true => check.solid(&case, place),
+        false => check.slab(&case, place),
+    };
     let execution = check.execution(&case.run);
     let probes = check.probes(&case.probes);
     let snapshots = check.snapshots(&case.observe);
-    if matches!(crack, Some(None)) {
-        check.observes_no_crack(&case.observe);
-        tables.retain(|table| !matches!(table, Table::Crack | Table::WaveArrival));
-    }
     let case = Case {
-        material: material?,
-        specimen: specimen.specimen?,
-        resolution: resolution?,
-        crack: crack?.map(|(crack, _)| crack),
-        loading: loading?,
+        body: body?,
         run: run?,
         probes: probes?,
         snapshots: snapshots?,
@@ -93,7 +78,7 @@ fn tables(observe: &Given<Vec<Given<Observe>>>) -> Vec<Table> {
         Observe::StressProfile => Some(Table::StressProfile),
         Observe::WaveArrival => Some(Table::WaveArrival),
         Observe::AverageStress => Some(Table::AverageStress),
-        Observe::Snapshots(_) => None,
+        Observe::Snapshots(_) | Observe::Gauges(_) => None,
     };
     let asked: Vec<Table> = items.iter().filter_map(word).collect();
     Table::ALL.into_iter().filter(|table| asked.contains(table)).collect()

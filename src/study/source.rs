@@ -29,7 +29,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 13] = [
+pub static SHIPPED: [Shipped; 19] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml", "case-1/strains.csv"),
@@ -66,6 +66,12 @@ pub static SHIPPED: [Shipped; 13] = [
     shipped!("convergence-D.yaml"),
     shipped!("scaling-fixed.yaml", "scaling/table-4-2.csv"),
     shipped!("scaling-scaled.yaml", "scaling/table-4-3.csv"),
+    shipped!("quickstart-3d.yaml"),
+    shipped!("wave-bar.yaml"),
+    shipped!("film-3d.yaml"),
+    shipped!("film-3d-small.yaml"),
+    shipped!("impact-small.yaml"),
+    shipped!("mixed-mode-small.yaml"),
 ];
 
 /// Largest file that is read, in bytes; a study of a thousand cases is a hundredth of it.

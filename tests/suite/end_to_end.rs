@@ -15,6 +15,7 @@ mod quickstart;
 mod ranks;
 mod repeat;
 mod scaling;
+mod solids;
 mod threads;
 
 use std::collections::BTreeMap;

@@ -44,7 +44,8 @@ fn case(crack: &str, element: u32, until: &str) -> Case {
 }
 
 fn solver(crack: &str, element: u32) -> Solver {
-    setup::solver(&case(crack, element, "{strain: 6 %}")).unwrap_or_else(|error| panic!("{crack}: {error}"))
+    let case = case(crack, element, "{strain: 6 %}");
+    setup::slab::solver(&case, case.slab().unwrap()).unwrap_or_else(|error| panic!("{crack}: {error}"))
 }
 
 fn run(crack: &str, element: u32, until: &str) -> (Setting, Series, Findings) {

@@ -65,6 +65,7 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
         film: Some(film(&setting, if name == "coarse" { 10 } else { 1 })),
         setting: Some(setting),
         series,
+        solid: None,
         manifest: Manifest {
             state: "done".to_owned(),
             version: "0.1.0".to_owned(),
@@ -341,7 +342,8 @@ fn the_report_names_what_failed_with_the_end_of_its_log() {
 
 #[test]
 fn the_comparison_shows_only_the_choices_that_differ() {
-    let page = text(&written(&three_meshes()), "report.html");
+    // Where a narrow column may break a name is no part of it.
+    let page = text(&written(&three_meshes()), "report.html").replace("<wbr>", "");
     let table = page
         .split("class=\"side\"")
         .nth(1)

@@ -94,9 +94,10 @@ fn energies_and_forces_equal_those_of_lammps_in_every_state() {
         let [mut energies, mut forces] = [vec![], vec![]];
         for name in ["intact", "cracked"] {
             let case = case(text, name);
-            let material = setup::material(&case).unwrap();
-            let mesh = Mesh::new(&setup::mesh_plan(&case, &material).unwrap());
-            let model = Model::new(&case, &material, &mesh).unwrap();
+            let slab = case.slab().unwrap();
+            let material = setup::slab::material(slab).unwrap();
+            let mesh = Mesh::new(&setup::slab::mesh_plan(slab, &case.run.until, &material).unwrap());
+            let model = Model::new(&case, slab, &material, &mesh).unwrap();
             for (_, position) in specimens::states(&mesh) {
                 let [energy, force] = differences(&model, &mesh, &material, &position);
                 energies.push(energy);
@@ -197,10 +198,12 @@ fn compare_runs((potential, text): (&str, &str), name: &str, steps_before: u64, 
         .output();
     assert!(export.unwrap().status.success());
     let case = case(text, name);
-    let mut solver = setup::solver(&case).unwrap();
+    let slab = case.slab().unwrap();
+    let material = setup::slab::material(slab).unwrap();
+    let mut solver = setup::slab::solver(&case, slab).unwrap();
     if steps_before > 0 {
         (0..steps_before).for_each(|_| solver.advance().unwrap());
-        let model = Model::new(&case, &setup::material(&case).unwrap(), solver.mesh()).unwrap();
+        let model = Model::new(&case, slab, &material, solver.mesh()).unwrap();
         let mut file = File::create(folder.file(&format!("data.{name}"))).unwrap();
         model.write_data("a later start", solver.state(), &mut file).unwrap();
     }
@@ -218,7 +221,7 @@ fn compare_runs((potential, text): (&str, &str), name: &str, steps_before: u64, 
         positions.push(largest_difference(&snapshot.first, &state.position) / spacing);
         velocities.push(largest_difference(&snapshot.second, &state.velocity) / spacing);
     }
-    let totals = differences_of_totals(&case, solver.mesh(), solver.state(), &folder.last_row());
+    let totals = differences_of_totals(slab, solver.mesh(), solver.state(), &folder.last_row());
     let setting = format!("{potential}, single atoms, {name}, 1,000 steps");
     for (claim, found) in [
         ("positions, change over r0", worst(positions)),
@@ -231,14 +234,14 @@ fn compare_runs((potential, text): (&str, &str), name: &str, steps_before: u64, 
 }
 
 /// Potential and kinetic energy and the pull of the grips.
-fn differences_of_totals(case: &Case, mesh: &Mesh, state: &State, row: &[f64]) -> [f64; 3] {
-    let case::Loading::StrainRate { rate, .. } = case.loading;
-    let grip = match case.specimen.grips {
+fn differences_of_totals(slab: &case::Slab, mesh: &Mesh, state: &State, row: &[f64]) -> [f64; 3] {
+    let case::Loading::StrainRate { rate, .. } = slab.loading;
+    let grip = match slab.specimen.grips {
         case::Grips::Clamped => Grip::Clamped,
         case::Grips::Sliding => Grip::Sliding,
     };
     let pull = Stretching::new(mesh, rate, grip, true).grip_force(state);
-    let mut forces = Forces::new(mesh.clone(), setup::material(case).unwrap());
+    let mut forces = Forces::new(mesh.clone(), setup::slab::material(slab).unwrap());
     let energy = forces.measure(&state.position).unwrap().energy(forces.domain());
     let expected = [energy, state.kinetic_energy(), pull];
     assert_eq!(row.len(), 3 + expected.len());

@@ -74,8 +74,9 @@ fn solve(case: &Path, ranks: u32, threads: u32) -> PathBuf {
 
 /// Among how many of so many ranks the bonds are shared that broke in a run.
 fn ranks_with_broken_bonds(case: &Case, run: &Path, ranks: u32) -> usize {
-    let plan = setup::mesh_plan(case, &setup::material(case).unwrap()).unwrap();
-    let mesh = Mesh::new(&plan);
+    let slab = case.slab().unwrap();
+    let plan = setup::slab::mesh_plan(slab, &case.run.until, &setup::slab::material(slab).unwrap());
+    let mesh = Mesh::new(&plan.unwrap());
     let domain = Domain::parts(ranks as usize, &mesh, |_| 1.0).next().unwrap();
     let (_, series) = read_series::<Setting>(&run.join("series.h5")).unwrap();
     let bonds = series.bonds.iter().filter(|bond| bond.probe > 0 && bond.broken);

@@ -41,6 +41,12 @@ pub fn ovito(arguments: &Arguments) -> Result<u8, CliError> {
             case.name, common.study, case.name
         )));
     };
+    if case.case.solid().is_some() {
+        return Err(CliError::Input(format!(
+            "case `{}` is a solid, and pictures are exported of slabs; open its fields.vtkhdf in ParaView",
+            case.name
+        )));
+    }
     let fields = survey.store.run_folder(&entry.id).join(FIELDS_FILE);
     if !fields.exists() {
         return Err(CliError::Input(format!(

@@ -1,10 +1,12 @@
 //! What the store holds, as the report wants it.
 
+mod solid;
+
 use std::path::{Path, PathBuf};
 
 use crate::analysis::series::{Series, Setting};
 use crate::cli::choices;
-use crate::cli::specimen::end;
+use crate::cli::specimen::slab::end;
 use crate::cli::survey::{Entry, Survey};
 use crate::domain::MessageCost;
 use crate::durable;
@@ -13,6 +15,7 @@ use crate::record::{self, CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE
 use crate::report::{CaseResult, Failure, Film, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
 use crate::setup::{self, Estimator};
 use crate::store::{self, Attempt, State};
+use crate::study::case::{Body, Case};
 
 /// A study with the results of all its cases, also of those that failed or are missing, and what others have of them.
 pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
@@ -36,16 +39,21 @@ pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
         cases: survey
             .entries
             .iter()
-            .map(|entry| CaseResult {
+            .map(|entry| {
+                let mut result = case_result(survey, entry, true);
                 // Where this machine cannot hold the mesh its specimen is not told.
-                specimen: estimator.specimen(&entry.planned.case).ok().map(|laid| specimen(&laid)),
-                ..case_result(survey, entry, true)
+                match estimator.specimen(&entry.planned.case) {
+                    Ok(setup::Specimen::Slab(laid)) => result.specimen = Some(specimen(&laid)),
+                    Ok(setup::Specimen::Solid(laid)) => solid::tell(&mut result, &laid),
+                    Err(_) => (),
+                }
+                result
             })
             .collect(),
     }
 }
 
-fn specimen(laid: &setup::Specimen) -> Specimen {
+fn specimen(laid: &setup::slab::estimate::Specimen) -> Specimen {
     let geometry = &laid.geometry;
     let both = |size: setup::Size| [size.asked, size.actual];
     Specimen {
@@ -70,7 +78,8 @@ fn scaling(survey: &Survey) -> Option<Scaling> {
     let growth = survey.plan.scaling?;
     let case = &survey.plan.cases.first()?.case;
     let counts: Vec<u32> = (0..=MOST_RANKS.ilog2()).map(|power| 1 << power).collect();
-    let burdens = setup::burdens(case, case.execution.ranks?, growth, &counts);
+    let slab = case.slab()?;
+    let burdens = setup::burdens(slab, &case.run.until, case.execution.ranks?, growth, &counts);
     // Where this machine cannot hold the mesh there is nothing to predict from.
     let burdens = burdens.unwrap_or_default();
     let compared = survey.plan.comparisons.iter().cloned();
@@ -101,17 +110,16 @@ pub fn case_result(survey: &Survey, entry: &Entry, with_film: bool) -> CaseResul
             result.manifest = manifest(done);
             let folder = survey.store.run_folder(&entry.id);
             result.digest = survey.plan.scaling.and_then(|_| digest(&folder));
-            match read_run(&folder, with_film) {
-                Ok((setting, series, film)) => {
-                    result.setting = Some(setting);
-                    result.series = series;
-                    result.film = film;
-                }
-                Err(error) => result.failure = Some(failure(error.to_string(), "")),
+            if let Err(error) = read(&mut result, &entry.planned.case, &folder, with_film) {
+                result.failure = Some(failure(error.to_string(), ""));
             }
         }
         State::Failed(failed) => {
-            set_kept(&mut result, &survey.store.partial_folder(&entry.id));
+            set_kept(
+                &mut result,
+                &entry.planned.case,
+                &survey.store.partial_folder(&entry.id),
+            );
             result.manifest.version = failed.program.version.clone();
             result.manifest.commit = failed.program.commit.clone();
             result.manifest.ended = Some(moment(failed.ended));
@@ -125,14 +133,24 @@ pub fn case_result(survey: &Survey, entry: &Entry, with_film: bool) -> CaseResul
 }
 
 /// What a failed run has kept; that nothing can be read is no second failure.
-fn set_kept(result: &mut CaseResult, folder: &Path) {
-    if let Ok((setting, series, film)) = read_run(folder, true) {
-        result.setting = Some(setting);
-        result.series = series;
-        result.film = film;
-    } else {
+fn set_kept(result: &mut CaseResult, case: &Case, folder: &Path) {
+    if read(result, case, folder, true).is_err() && case.slab().is_some() {
         // A killed solver leaves segments, which tell nothing of the specimen.
         result.series = record::read_segments(folder).unwrap_or_default();
+    }
+}
+
+/// Reads what a run has left: its setting, its series and, if it took any and they are wanted, its pictures.
+fn read(result: &mut CaseResult, case: &Case, folder: &Path, with_film: bool) -> Result<(), RecordError> {
+    match &case.body {
+        Body::Slab(_) => {
+            let (setting, series, film) = read_run(folder, with_film)?;
+            result.setting = Some(setting);
+            result.series = series;
+            result.film = film;
+            Ok(())
+        }
+        Body::Solid(body) => solid::read(result, body, folder, with_film),
     }
 }
 

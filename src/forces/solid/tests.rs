@@ -1,3 +1,6 @@
+mod constants;
+mod dispersion;
+
 use super::*;
 use crate::mesh::solid::Plan;
 use crate::mesh::solid::region::{Region, Shape as RegionShape};

@@ -22,16 +22,23 @@ type Axes<'a, 'b> = ChartContext<'a, BitMapBackend<'b>, Cartesian2d<RangedCoordf
 /// A part of the plane to scale, nm, with its axes.
 pub struct Canvas {
     view: [Range<f64>; 2],
+    /// Of its axes.
+    names: [&'static str; 2],
     /// Of the part inside the axes, pixels.
     height: u32,
 }
 
 impl Canvas {
+    /// Of a slab.
     pub fn new(view: [Range<f64>; 2]) -> Self {
+        Self::named(view, ["x from the left edge (nm)", "y (nm)"])
+    }
+
+    pub fn named(view: [Range<f64>; 2], names: [&'static str; 2]) -> Self {
         let inner = WIDTH - EDGE - LEFT - RIGHT;
         let [x, y] = [0, 1].map(|axis| view[axis].end - view[axis].start);
         let height = (f64::from(inner) * y / x).clamp(97.0, TALLEST) as u32;
-        Self { view, height }
+        Self { view, names, height }
     }
 
     /// The bytes of a file that shows what is drawn between the axes.
@@ -83,8 +90,8 @@ impl Canvas {
             .axis_desc_style(font)
             .x_label_formatter(&|value| numbers::tick(*value))
             .y_label_formatter(&|value| numbers::tick(*value))
-            .x_desc("x from the left edge (nm)")
-            .y_desc("y (nm)")
+            .x_desc(self.names[0])
+            .y_desc(self.names[1])
             .draw()?;
         scale.draw(root)?;
         root.present()?;

@@ -75,7 +75,7 @@ impl Instruments<2> for Slab {
         })
     }
 
-    fn picture(&mut self, state: &State) -> Vec<[i32; 3]> {
+    fn picture(&mut self, state: &mut State) -> Vec<[i32; 3]> {
         let broken = self.forces.broken_bonds(&state.position);
         self.measure.gather(self.forces.domain());
         broken

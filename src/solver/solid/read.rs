@@ -24,7 +24,7 @@ const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "yz", "xz", "xy"];
 impl Instruments<3> for Solid {
     type Mesh = Mesh;
     type Measure = Measure;
-    /// Of each element the share of its interfaces that have opened.
+    /// Of each element the share of the nearest-neighbour bonds of its sites that are broken.
     type Broken = Vec<f64>;
     type Reading = Row;
     type Kept = Kept;
@@ -57,7 +57,8 @@ impl Instruments<3> for Solid {
         let velocities = state.velocity.iter_mut();
         velocities.for_each(|plane| domain.gather_atoms(plane));
         numbers.push(self.thermometer.read(state));
-        numbers.push(self.broken.count(&self.forces) as f64);
+        numbers.push((self.forces.open_interfaces().len() - self.open_at_start) as f64);
+        numbers.push(self.bonds.broken(&self.forces, &mut state.position).0 as f64);
         numbers.extend(self.loading.pulls(state, domain.ranks()).into_flattened());
         let volume = site_volume(self.forces.mesh());
         let gauges = self.gauges.iter();
@@ -66,11 +67,11 @@ impl Instruments<3> for Solid {
         domain.ranks().is_first().then_some(Row { step, numbers })
     }
 
-    fn picture(&mut self, _: &State<3>) -> Vec<f64> {
+    fn picture(&mut self, state: &mut State<3>) -> Vec<f64> {
         let domain = self.forces.domain();
         let planes = self.measure.planes_mut().into_iter();
         planes.for_each(|plane| domain.gather_elements(plane));
-        self.broken.shares(&self.forces)
+        self.bonds.broken(&self.forces, &mut state.position).1
     }
 
     fn open_interfaces(&self) -> Vec<u32> {
@@ -126,7 +127,11 @@ impl Solid {
         };
         names.extend(parts("sigma", &COMPONENTS, "eV/nm^3"));
         names.extend(["kinetic", "potential", "work", "cutoff_release"].map(|name| named(name, "eV")));
-        names.extend([named("temperature", "K"), named("open_interfaces", "1")]);
+        names.extend([
+            named("temperature", "K"),
+            named("open_interfaces", "1"),
+            named("broken_bonds", "1"),
+        ]);
         for action in self.loading.names() {
             names.extend(parts(&format!("{action}_force"), &AXES, "eV/nm"));
         }

@@ -41,6 +41,10 @@ impl<'de> Deserializer<'de> for Reader<'de> {
         visitor.visit_u32(self.number("a whole number such as 10")?)
     }
 
+    fn deserialize_i32<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
+        visitor.visit_i32(self.number("a whole number such as -2")?)
+    }
+
     fn deserialize_bool<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Fault> {
         match &self.node.value {
             Value::Word(text) if text == "true" || text == "false" => visitor.visit_bool(text == "true"),
@@ -81,11 +85,11 @@ impl<'de> Deserializer<'de> for Reader<'de> {
             Value::List(items) if items.len() == length => self.deserialize_seq(visitor),
             Value::List(items) => {
                 let message = format!("expected a list of {length} values, found {}", items.len());
-                Err(Fault::new(self.node.place, message).help("write [x, y]"))
+                Err(Fault::new(self.node.place, message).help("write [x, y, z]"))
             }
             _ => Err(self
                 .unexpected(&format!("a list of {length} values").as_str())
-                .help("write [x, y]")),
+                .help("write [x, y, z]")),
         }
     }
 
@@ -191,7 +195,7 @@ impl<'de> Deserializer<'de> for Reader<'de> {
     }
 
     serde::forward_to_deserialize_any! {
-        i8 i16 i32 i64 i128 u8 u16 u64 u128 f32 char bytes byte_buf option unit unit_struct ignored_any
+        i8 i16 i64 i128 u8 u16 u64 u128 f32 char bytes byte_buf option unit unit_struct ignored_any
     }
 }
 

@@ -1,7 +1,7 @@
 //! How a choice that has values of its own is written in full.
 
 /// Choices, and each with its key and its values.
-const IN_FULL: [(&str, &str); 11] = [
+const IN_FULL: [(&str, &str); 22] = [
     (
         "lennard-jones",
         "potential: {lennard-jones: {epsilon: 0.415 eV, sigma: 0.2277 nm, cutoff: 0.34 nm}}",
@@ -16,6 +16,41 @@ const IN_FULL: [(&str, &str); 11] = [
     ),
     ("smooth", "at-cutoff: {smooth: {from: 0.34 nm, to: 0.43 nm}}"),
     ("strain-rate", "loading: {strain-rate: {rate: 4.6e6 /s}}"),
+    ("velocity", "loading: {velocity: {face: a2-high, speed: 20 m/s}}"),
+    (
+        "traction",
+        "loading: {traction: {face: a2-high, stress: [0 GPa, 1.6 GPa, 0 GPa]}}",
+    ),
+    (
+        "opposed-tractions",
+        "loading: {opposed-tractions: {axis: a2, thickness: a3, stress: [0 GPa, 1.6 GPa, 0 GPa]}}",
+    ),
+    (
+        "pulse",
+        "loading: {pulse: {face: a3-high, duration: 10 ps, pressure: 0.1 GPa}}",
+    ),
+    (
+        "impact",
+        "loading: {impact: {face: a3-high, radius: 50 nm, speed: 100 m/s}}",
+    ),
+    (
+        "ball",
+        "regions: [{ball: {center: [10 nm, 20 nm, 1 nm], radius: 5 nm, element: 1}}]",
+    ),
+    (
+        "cylinder",
+        "regions: [{cylinder: {along: a3, center: [10 nm, 20 nm, 1 nm], radius: 5 nm, element: 1}}]",
+    ),
+    (
+        "slab",
+        "regions: [{slab: {normal: a2, at: 40 nm, half-width: 5 nm, element: 1}}]",
+    ),
+    (
+        "plane",
+        "notch: {plane: {normal: a2, at: 40 nm, from: a1-low, depth: 20 nm}}",
+    ),
+    ("blocks", "notch: {blocks: {from: [0, 20, 0], to: [10, 21, 1]}}"),
+    ("gauges", "observe: [{gauges: {axis: a3, at: [10 nm, 20 nm]}}]"),
     ("gauss", "summation: {gauss: 2}"),
     ("blend", "mass: {blend: 0.65}"),
     ("snapshots", "observe: [{snapshots: {every: 0.5 % strain}}]"),

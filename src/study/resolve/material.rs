@@ -2,7 +2,7 @@
 
 use super::{At, Check, about, nanometres};
 use crate::study::{
-    case::{AtCutoff, Material, Potential, PotentialShape},
+    case::{AtCutoff, Material, Potential, PotentialShape, Sheet},
     defaults,
     file::{self, Smooth},
     finding::{Finding, Place},
@@ -14,24 +14,29 @@ use crate::study::{
 const MOST_MASS: f64 = 1e15;
 
 impl Check<'_> {
-    /// The material, and the distance at which two atoms rest (nm), which may be known although the whole is not.
-    pub fn material(&self, given: &Given<file::Material>, case: Place) -> (Option<Material>, Option<f64>) {
+    /// The material of a slab, and the distance at which two atoms rest (nm), which may be known although the whole is not.
+    pub fn sheet(&self, given: &Given<file::Material>, case: Place) -> (Option<Sheet>, Option<f64>) {
         let Some((values, place)) = self.section(given, case) else {
             return (None, None);
         };
+        let (atoms, spacing) = self.atoms(&values, place);
+        let thickness = self.size(&values.thickness, place, "material.thickness");
+        let parts = atoms.zip(thickness);
+        (parts.map(|(atoms, (thickness, _))| Sheet { atoms, thickness }), spacing)
+    }
+
+    /// Potential and mass, and the distance at which two atoms rest, nm.
+    pub fn atoms(&self, values: &file::Material, place: Place) -> (Option<Material>, Option<f64>) {
         let example = "{lennard-jones: {epsilon: 0.415 eV, sigma: 0.2277 nm, cutoff: 0.34 nm}}";
         let potential = self.need(&values.potential, place, "material.potential", example);
         let potential = potential.and_then(|(potential, place)| self.potential(&potential, place));
         let spacing = potential.as_ref().map(|potential| minimum(&potential.shape));
         let mass = self.mass(&values.mass, place);
-        let thickness = self.size(&values.thickness, place, "material.thickness");
-        let parts = potential.zip(mass).zip(thickness);
-        let material = parts.map(|((potential, (mass, _)), (thickness, _))| Material {
-            potential,
-            mass,
-            thickness,
-        });
-        (material, spacing)
+        let parts = potential.zip(mass);
+        (
+            parts.map(|(potential, (mass, _))| Material { potential, mass }),
+            spacing,
+        )
     }
 
     /// Of a site, u.

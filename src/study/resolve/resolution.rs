@@ -5,7 +5,6 @@ use crate::study::{
     case::{Region, RegionShape, Resolution},
     file,
     finding::{Finding, Place},
-    quantity::Length,
     reader::Given,
 };
 
@@ -72,6 +71,8 @@ impl Check<'_> {
                 });
                 (self.element(&disc.element, *place, "disc.element"), shape)
             }
+            // Refused where what a slab has no use for is.
+            file::Region::Slab(_) | file::Region::Ball(_) | file::Region::Cylinder(_) => return None,
         };
         if let (Some((fine, at)), Some((coarse, given))) = (element, base)
             && fine > coarse
@@ -101,10 +102,29 @@ impl Check<'_> {
         })
     }
 
-    fn point(&self, given: &Given<[Given<Length>; 2]>, region: Place, path: &str) -> Option<At<[f64; 2]>> {
-        let (point, place) = self.need(given, region, path, "[10 nm, -5 nm]")?;
-        let [x, y] = point.map(|coordinate| coordinate.right().map(|length| length.value));
-        Some(([x?, y?], place))
+    fn point(&self, given: &Given<file::Point>, region: Place, path: &str) -> Option<At<[f64; 2]>> {
+        self.coordinates(given, region, path, "[10 nm, -5 nm]")
+    }
+
+    /// A point of as many coordinates as the specimen has dimensions.
+    pub fn coordinates<const D: usize>(
+        &self,
+        given: &Given<file::Point>,
+        region: Place,
+        path: &str,
+        example: &str,
+    ) -> Option<At<[f64; D]>> {
+        let (file::Point(point), place) = self.need(given, region, path, example)?;
+        if point.len() != D {
+            let message = format!("expected a list of {D} values, found {}", point.len());
+            self.add(Finding::at(place, message).help(format!("write for example {example}")));
+            return None;
+        }
+        let mut values = [0.0; D];
+        for (value, coordinate) in values.iter_mut().zip(&point) {
+            *value = coordinate.right()?.value;
+        }
+        Some((values, place))
     }
 
     fn rectangle(&self, (from, at): At<[f64; 2]>, (to, until): At<[f64; 2]>) -> Option<RegionShape> {

@@ -39,10 +39,21 @@ const RAREST_CHECKPOINTS: f64 = 1e7;
 /// A step of a smaller share of the limit gains no accuracy: rounding of the steps takes over.
 const LEAST_FRACTION: f64 = 1e-3;
 
+impl CrackStops {
+    /// Where they were given.
+    pub fn places(self) -> impl Iterator<Item = Place> {
+        let stops = [self.crack_length, self.arrest, self.after_branch, self.leaves_the_plane];
+        stops.into_iter().flatten().map(|(_, place)| place)
+    }
+}
+
 impl Check<'_> {
     pub fn loading(&self, given: &Given<file::Loading>, case: Place, specimen: &SpecimenAt) -> Option<Loading> {
         let (loading, place) = self.need(given, case, "loading", "{strain-rate: {mode: I, rate: 4.6e6 /s}}")?;
-        let file::Loading::StrainRate(values) = loading;
+        // Another is refused where what a slab has no use for is.
+        let file::Loading::StrainRate(values) = loading else {
+            return None;
+        };
         let mode = match &values.mode {
             Given::Absent => Some(defaults::MODE),
             Given::Wrong(_) => None,

@@ -37,7 +37,8 @@ impl Check<'_> {
         let lattice = match &values.lattice {
             Given::Absent => Some(defaults::LATTICE),
             Given::Wrong(_) => None,
-            Given::Right(file::Lattice::Triangular, _) => Some(Lattice::Triangular),
+            // The other makes a solid, which is resolved as such.
+            Given::Right(file::Lattice::Triangular | file::Lattice::Fcc, _) => Some(Lattice::Triangular),
         };
         let grips = match &values.grips {
             Given::Absent => Some(defaults::GRIPS),

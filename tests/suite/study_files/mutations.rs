@@ -131,7 +131,8 @@ fn complaint(text: &str) -> Option<String> {
     let mut estimator = Estimator::default();
     plan.cases.iter().find_map(|planned| {
         let case = &planned.case;
-        let is_large = case.specimen.length * case.specimen.width > LARGEST;
+        let slab = case.slab();
+        let is_large = slab.is_some_and(|slab| slab.specimen.length * slab.specimen.width > LARGEST);
         let refused = |why: setup::SetupError| {
             let mistakes = plan.refuse([(planned.name.as_str(), why.refusal())]).mistakes();
             let is_placed = mistakes
@@ -140,7 +141,9 @@ fn complaint(text: &str) -> Option<String> {
             (!is_placed).then(|| format!("refused without place or advice: {mistakes:?}"))
         };
         if is_large {
-            let laid = setup::material(case).and_then(|material| setup::mesh_plan(case, &material));
+            let slab = slab.expect("only slabs are large");
+            let laid = setup::slab::material(slab)
+                .and_then(|material| setup::slab::mesh_plan(slab, &case.run.until, &material));
             return laid.err().and_then(refused);
         }
         let estimate = match estimator.estimate(case) {

@@ -138,7 +138,8 @@ fn ranks_of_the_fixed_size_share_its_elements_and_those_of_the_scaled_size_have_
 fn every_rank_of_the_scaled_size_has_the_work_of_one_and_two_neighbours_at_most() {
     let plan = plan(&study::read("scaling-scaled.yaml").unwrap()).unwrap();
     let counts = [1, 2, 3, 512];
-    let found = setup::burdens(&plan.cases[0].case, 1, study::Growth::Scaled, &counts).unwrap();
+    let case = &plan.cases[0].case;
+    let found = setup::burdens(case.slab().unwrap(), &case.run.until, 1, study::Growth::Scaled, &counts).unwrap();
     assert_eq!(found.iter().map(|burden| burden.ranks).collect::<Vec<_>>(), counts);
     let neighbours: Vec<u32> = found.iter().map(|burden| burden.messages).collect();
     assert_eq!(neighbours, [0, 1, 2, 2]);

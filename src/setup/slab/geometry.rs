@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use crate::lattice::triangular;
 use crate::mesh::cut::NotchEnd;
 use crate::mesh::{Mesh, Plan};
-use crate::study::case::{self, Case};
+use crate::study::case::{self, Body, Case, Slab};
 
 /// A length as asked for and as it is, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,18 +49,18 @@ impl Size {
 }
 
 impl Geometry {
-    pub fn of(case: &Case, plan: &Plan, notch: Option<Notch>) -> Self {
+    pub fn of(slab: &Slab, plan: &Plan, notch: Option<Notch>) -> Self {
         let layout = &plan.layout;
         let row = triangular::ROW_HEIGHT * plan.spacing;
         let [width, grip] = [layout.lattice_rows(), plan.grip_rows].map(|rows| f64::from(rows) * row);
         // From a face, half a row beyond its atoms, to the innermost row of the grip.
         let edge = grip - 0.5 * row;
         let size = |asked: f64, actual: f64| Size { asked, actual };
-        let height = size(case.specimen.width - 2.0 * edge, width - 2.0 * edge);
-        let case::Loading::StrainRate { rate, .. } = case.loading;
+        let height = size(slab.specimen.width - 2.0 * edge, width - 2.0 * edge);
+        let case::Loading::StrainRate { rate, .. } = slab.loading;
         Self {
-            length: size(case.specimen.length, layout.length() * plan.spacing),
-            width: size(case.specimen.width, width),
+            length: size(slab.specimen.length, layout.length() * plan.spacing),
+            width: size(slab.specimen.width, width),
             height,
             notch,
             grip_thickness: grip,
@@ -82,8 +82,8 @@ impl Geometry {
 
 impl Notch {
     /// Of a mesh with a cut.
-    pub fn of(case: &Case, mesh: &Mesh) -> Option<Self> {
-        let (crack, cut) = (case.crack.as_ref()?, mesh.cut?);
+    pub fn of(slab: &Slab, mesh: &Mesh) -> Option<Self> {
+        let (crack, cut) = (slab.crack.as_ref()?, mesh.cut?);
         let mut severed = DefaultHasher::new();
         let vectors = triangular::vectors_within(REACH);
         for row in (cut.row - REACH as i32 - 1).max(0)..cut.row {
@@ -107,8 +107,8 @@ impl Notch {
 
 /// Tells computations apart: equal for cases whose meshes, severed bonds, material, loading and run are, however their
 /// specimens were asked for.
-pub fn computation(case: &Case, plan: &Plan, elements: u64, notch: Option<&Notch>) -> u64 {
-    let mut rest = case.clone();
+pub fn computation(case: &Case, slab: &Slab, plan: &Plan, elements: u64, notch: Option<&Notch>) -> u64 {
+    let mut rest = slab.clone();
     rest.specimen.length = 0.0;
     rest.specimen.width = 0.0;
     rest.specimen.block = 0;
@@ -117,6 +117,10 @@ pub fn computation(case: &Case, plan: &Plan, elements: u64, notch: Option<&Notch
     if notch.is_some() {
         rest.crack = None;
     }
+    let rest = Case {
+        body: Body::Slab(rest),
+        ..case.clone()
+    };
     let rest = serde_json::to_string(&rest).unwrap_or_default();
     let mut hasher = DefaultHasher::new();
     let layout = plan.layout;

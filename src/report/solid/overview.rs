@@ -1,0 +1,188 @@
+//! Solids side by side: what differs, what it costs, what came out, how far from the finest.
+
+use super::findings::{Moment, distance};
+use super::{Analysed, reference};
+use crate::report::numbers::{ABSENT, count, signed_percent, significant};
+use crate::report::overview::{Group, Row, differing};
+use crate::report::units::{GIGAPASCAL, PERCENT};
+use crate::units::amounts::duration;
+
+/// Stands where a case is measured against itself.
+const REFERENCE: &str = "reference";
+
+/// The comparison, in the order in which it is read.
+pub fn groups(cases: &[Analysed]) -> Vec<Group> {
+    let results: Vec<_> = cases.iter().map(|case| case.result).collect();
+    let mut groups = vec![
+        Group {
+            title: "What differs",
+            rows: differing(&results),
+        },
+        Group {
+            title: "What it costs",
+            rows: costs(cases),
+        },
+        Group {
+            title: "What comes out",
+            rows: results_of(cases),
+        },
+        Group {
+            title: "How far from the case with the most nodes",
+            rows: distances(cases),
+        },
+        Group {
+            title: "Where the energy goes",
+            rows: energies(cases),
+        },
+    ];
+    let says_something = |row: &Row| row.cells.iter().any(|cell| cell != ABSENT && cell != REFERENCE);
+    for group in &mut groups {
+        group.rows.retain(says_something);
+    }
+    groups.retain(|group| !group.rows.is_empty());
+    groups
+}
+
+fn row(cases: &[Analysed], label: &str, cell: impl Fn(&Analysed) -> Option<String>) -> Row {
+    let cells = cases.iter().map(|case| cell(case).unwrap_or_else(|| ABSENT.to_owned()));
+    Row {
+        label: label.to_owned(),
+        cells: cells.collect(),
+    }
+}
+
+fn costs(cases: &[Analysed]) -> Vec<Row> {
+    let three = |value: f64| significant(value, 3);
+    vec![
+        row(cases, "elements", |case| Some(case.solid.specimen.kinds.clone())),
+        row(cases, "nodes", |case| Some(count(case.solid.specimen.nodes))),
+        row(cases, "atoms represented", |case| {
+            Some(count(case.solid.specimen.atoms))
+        }),
+        row(cases, "time step (ps)", |case| {
+            case.result.manifest.time_step.map(three)
+        }),
+        row(cases, "steps", |case| case.result.manifest.steps.map(count)),
+        row(cases, "wall time", |case| {
+            case.result.manifest.wall_seconds.map(duration)
+        }),
+        row(cases, "core-seconds", |case| case.result.core_seconds().map(three)),
+        row(cases, "memory (MB)", |case| {
+            case.result.manifest.peak_memory.map(|bytes| three(bytes * 1e-6))
+        }),
+        row(cases, "million atom-steps per second", |case| {
+            case.atom_steps_a_second().map(|pace| three(pace / 1e6))
+        }),
+    ]
+}
+
+fn results_of(cases: &[Analysed]) -> Vec<Row> {
+    let three = |value: f64| significant(value, 3);
+    let when = |moment: Moment| match moment.strain {
+        Some(strain) => format!("{} % ({} ps)", three(strain * PERCENT), three(moment.time)),
+        None => format!("{} ps", three(moment.time)),
+    };
+    vec![
+        row(cases, "modulus (GPa)", |case| {
+            case.findings.modulus.map(|modulus| three(modulus * GIGAPASCAL))
+        }),
+        row(cases, "greatest stress (GPa)", |case| {
+            case.findings.peak.map(|peak| three(peak.stress * GIGAPASCAL))
+        }),
+        row(cases, "greatest stress at", |case| case.findings.peak.map(when)),
+        row(cases, "bonds first change at", |case| {
+            case.findings.first_break.map(when)
+        }),
+        row(cases, "stress there (GPa)", |case| {
+            case.findings.first_break.map(|start| three(start.stress * GIGAPASCAL))
+        }),
+        row(cases, "bonds lost at the end", |case| {
+            case.findings.broken.map(|broken| significant(broken, 9))
+        }),
+        row(cases, "borders of elements open at the end", |case| {
+            let open = case.series()?.open_interfaces.last().copied()?;
+            (case.solid.specimen.elements > case.solid.specimen.atoms_alone).then(|| count(open as u64))
+        }),
+        row(cases, "period (ps)", |case| {
+            let (period, seen) = case.findings.period?;
+            Some(format!("{} over {} periods", significant(period, 4), seen))
+        }),
+        row(cases, "highest temperature of atoms (K)", |case| {
+            case.findings.temperature.map(three)
+        }),
+        row(cases, "ended because", |case| case.result.manifest.end_reason.clone()),
+    ]
+}
+
+fn distances(cases: &[Analysed]) -> Vec<Row> {
+    let Some(finest) = reference(cases) else {
+        return Vec::new();
+    };
+    let against = |label: &str, of: &dyn Fn(&Analysed) -> Option<f64>| {
+        row(cases, label, |case| match std::ptr::eq(case, finest) {
+            true => Some(REFERENCE.to_owned()),
+            false => Some(signed_percent(of(case)? / of(finest)? - 1.0)),
+        })
+    };
+    vec![
+        against("modulus", &|case| case.findings.modulus),
+        against("greatest stress", &|case| Some(case.findings.peak?.stress)),
+        against("strain at the first change of bonds", &|case| {
+            case.findings.first_break?.strain
+        }),
+        against("time of the first change of bonds", &|case| {
+            Some(case.findings.first_break?.time)
+        }),
+        against("period", &|case| Some(case.findings.period?.0)),
+        row(
+            cases,
+            "curve of the stress, over its greatest",
+            |case| match std::ptr::eq(case, finest) {
+                true => Some(REFERENCE.to_owned()),
+                false => curve_distance(case, finest).map(|far| format!("{} %", significant(PERCENT * far, 2))),
+            },
+        ),
+        row(
+            cases,
+            "core-seconds of the finest over its own",
+            |case| match std::ptr::eq(case, finest) {
+                true => Some(REFERENCE.to_owned()),
+                false => Some(significant(
+                    finest.result.core_seconds()? / case.result.core_seconds()?,
+                    3,
+                )),
+            },
+        ),
+    ]
+}
+
+/// How far the stress of a case is from that of another, both in the direction of their pull.
+pub fn curve_distance(case: &Analysed, finest: &Analysed) -> Option<f64> {
+    let [own, other] =
+        [case, finest].map(|case| case.series().map(|series| series.pull(case.solid.specimen.direction)));
+    distance(case.series()?, &own?, finest.series()?, &other?)
+}
+
+fn energies(cases: &[Analysed]) -> Vec<Row> {
+    let last = |case: &Analysed, column: fn(&super::Series) -> &Vec<f64>| {
+        let value = column(case.series()?).last().copied()?;
+        Some(significant(value, 3))
+    };
+    vec![
+        row(cases, "work of the loading (eV)", |case| {
+            last(case, |series| &series.work)
+        }),
+        row(cases, "kinetic energy (eV)", |case| {
+            last(case, |series| &series.kinetic)
+        }),
+        row(cases, "potential energy (eV)", |case| {
+            last(case, |series| &series.potential)
+        }),
+        row(cases, "released at the cutoff (eV)", |case| {
+            last(case, |series| &series.release)
+        }),
+        row(cases, "energy missing, over the work", |case| {
+            case.result.manifest.energy_error.map(|error| significant(error, 2))
+        }),
+    ]
+}

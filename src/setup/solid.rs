@@ -1,0 +1,102 @@
+//! A solid becomes a mesh, a loading and a solver.
+
+mod estimate;
+mod experiment;
+mod faces;
+mod plan;
+mod specimen;
+mod words;
+
+pub use estimate::Estimator;
+pub use plan::{Laid, lay_out};
+pub use specimen::{Kind, Specimen};
+
+pub use experiment::{LOADING, gauge_name};
+
+use super::{SetupError, interaction};
+use crate::domain::Ranks;
+use crate::material::Material;
+use crate::mesh::solid::Solid as Mesh;
+use crate::solver::{self, Solver};
+use crate::study::Subject;
+use crate::study::case::solid::{Loading, Notch};
+use crate::study::case::{Case, MassMatrix, Solid, Summation};
+
+/// The crystal of a solid.
+pub fn material(solid: &Solid) -> Result<Material, SetupError> {
+    let (interaction, site_mass) = interaction(&solid.material)?;
+    Material::face_centred_cubic(interaction, site_mass).ok_or(SetupError::NoLattice {
+        cutoff: interaction.cutoff(),
+        minimum: interaction.minimum(),
+    })
+}
+
+/// Nominal strain a ps, where the loading makes one.
+pub fn strain_rate(solid: &Solid) -> Option<f64> {
+    let Loading::Velocity {
+        face,
+        speed,
+        direction,
+        depth,
+        ..
+    } = solid.loading
+    else {
+        return None;
+    };
+    let spacing = material(solid).ok()?.spacing;
+    let laid = lay_out(solid, spacing).ok()?;
+    Some(speed / laid.strained_length(solid, face, direction, depth))
+}
+
+fn settings(case: &Case, solid: &Solid) -> solver::Settings {
+    let rate = strain_rate(solid);
+    super::settings(case, |strain| rate.map_or(f64::INFINITY, |rate| strain / rate))
+}
+
+/// Refuses what a study may ask for and the forces of solids do not have.
+pub fn refuse_what_is_not_there(case: &Case, solid: &Solid) -> Result<(), SetupError> {
+    let asked = [
+        (
+            matches!(solid.notch, Some(Notch::Plane { .. })),
+            Subject::Notch,
+            "planes cannot be severed in this version",
+            "leave out blocks instead: `notch: {blocks: {from: [0, 20, 0], to: [10, 21, 1]}}`",
+        ),
+        (
+            !matches!(case.run.summation, Summation::Exact | Summation::Gauss { .. }),
+            Subject::Summation,
+            "in this version a solid is summed by every bond, or by a few points a patch where faces are hardly bent",
+            "write `summation: {gauss: 6}`, `{gauss: 3}` or `exact`",
+        ),
+        (
+            case.run.mass != MassMatrix::Lumped,
+            Subject::Mass,
+            "in this version the masses of a solid are lumped",
+            "leave `mass` out",
+        ),
+    ];
+    match asked.into_iter().find(|(is_asked, ..)| *is_asked) {
+        Some((_, subject, message, help)) => Err(SetupError::NotThere { subject, message, help }),
+        None => Ok(()),
+    }
+}
+
+/// The part of this rank in a solver of a solid at the start of its run.
+pub fn solver(case: &Case, solid: &Solid, ranks: Ranks) -> Result<Solver<solver::Solid, 3>, SetupError> {
+    refuse_what_is_not_there(case, solid)?;
+    let material = material(solid)?;
+    let laid = lay_out(solid, material.spacing)?;
+    let sites = specimen::site_count(&laid.plan);
+    estimate::refuse_what_does_not_fit(sites, solid.resolution.element, ranks.here())?;
+    // All have looked at what is free before any takes of it.
+    ranks.wait_for_all();
+    let mesh = Mesh::new(&laid.plan);
+    let experiment = experiment::experiment(solid, &laid, &mesh, &material)?;
+    Ok(Solver::of_solid(
+        ranks,
+        mesh,
+        material,
+        experiment,
+        settings(case, solid),
+    )?)
+}

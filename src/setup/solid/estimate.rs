@@ -1,0 +1,152 @@
+//! What a solid will cost, before anything is computed.
+
+use super::specimen::{Kind, Specimen, site_count};
+use super::{lay_out, material, refuse_what_is_not_there, strain_rate};
+use crate::forces::solid::Forces;
+use crate::material::Material;
+use crate::mesh::solid::sites::{Frame, Outline, Sites};
+use crate::mesh::solid::{Plan, SMALLEST_BLOCK, Solid as Mesh};
+use crate::setup::estimate::{self, Estimate, ranks, time_of_run};
+use crate::setup::intervals::between_pictures;
+use crate::setup::{SetupError, memory};
+use crate::study::case::{self, Case, Solid, TimeStep};
+
+/// Bytes: of a process that computes hardly anything, and what an atom, a tetrahedron and an octahedron add.
+const BYTES_A_PROCESS: f64 = 20e6;
+const BYTES_AN_ATOM: f64 = 250.0;
+const BYTES_A_NODE: f64 = 400.0;
+
+/// Seconds on one core: to start and to publish a run, of a probe, and in a step of an atom, of an element, and of a site
+/// on its faces.
+const SECONDS_A_RUN: f64 = 0.15;
+const SECONDS_A_PROBE: f64 = 1e-4;
+const SECONDS_AN_ATOM: f64 = 60e-9;
+const SECONDS_AN_ELEMENT: f64 = 100e-9;
+const SECONDS_A_FACE_SITE: f64 = 1e-9;
+
+/// Estimates solids, and remembers what many cases of one study have in common.
+#[derive(Default)]
+pub struct Estimator {
+    /// Squared highest frequencies of elements of one size, 1/ps^2.
+    frequencies: Vec<(case::Material, u32, f64)>,
+}
+
+impl Estimator {
+    pub fn estimate(&mut self, case: &Case, solid: &Solid) -> Result<Estimate, SetupError> {
+        refuse_what_is_not_there(case, solid)?;
+        let material = material(solid)?;
+        let laid = lay_out(solid, material.spacing)?;
+        refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, ranks(case))?;
+        let specimen = Specimen::of(case, solid, &laid);
+        let stability_limit = self.stability_limit(solid, &material, &specimen);
+        let time_step = match case.run.time_step {
+            TimeStep::Auto { fraction } => fraction * stability_limit,
+            TimeStep::Given(step) => step,
+        };
+        let until = &case.run.until;
+        let by_strain = until.strain.zip(strain_rate(solid)).map(|(strain, rate)| strain / rate);
+        let end = by_strain
+            .unwrap_or(f64::INFINITY)
+            .min(until.time.unwrap_or(f64::INFINITY));
+        let steps = (end / time_step).ceil() as u64;
+        let time = time_of_run(case, steps, time_step)?;
+        let pictures = (time / between_pictures(case).unwrap_or(f64::INFINITY))
+            .floor()
+            .min(steps as f64)
+            + 2.0;
+        let [nodes, elements] = [specimen.nodes as f64, specimen.elements as f64];
+        let series = (time / case.probes.every + 2.0) * 16.0 * 40.0;
+        let disk = pictures * (nodes * (48.0 + 36.0) + elements * (64.0 + 40.0)) + 96.0 * nodes + series;
+        let bytes = BYTES_A_PROCESS + memory_of(&specimen.kinds);
+        let seconds = SECONDS_A_RUN
+            + SECONDS_A_PROBE * time / case.probes.every
+            + seconds_of_a_step(&specimen.kinds) * steps as f64;
+        Ok(Estimate {
+            nodes: specimen.nodes,
+            elements: specimen.elements,
+            represented_atoms: specimen.sites,
+            time_step,
+            stability_limit,
+            steps,
+            memory_bytes: bytes as u64 * u64::from(ranks(case)),
+            disk_bytes: disk as u64,
+            seconds,
+            specimen: estimate::Specimen::Solid(specimen),
+        })
+    }
+
+    pub fn specimen(&mut self, case: &Case, solid: &Solid) -> Result<Specimen, SetupError> {
+        let material = material(solid)?;
+        let laid = lay_out(solid, material.spacing)?;
+        refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, 1)?;
+        Ok(Specimen::of(case, solid, &laid))
+    }
+
+    /// The stability limit of the perfect crystal in this mesh, ps: that of its stiffest size of elements, each looked at in two
+    /// blocks of its own.
+    fn stability_limit(&mut self, solid: &Solid, material: &Material, specimen: &Specimen) -> f64 {
+        let mut most = 0.0;
+        for &Kind { size, .. } in &specimen.kinds {
+            let is_known = |known: &&(case::Material, u32, f64)| known.0 == solid.material && known.1 == size;
+            let found = self.frequencies.iter().find(is_known).map(|known| known.2);
+            let squared = found.unwrap_or_else(|| squared_frequency(material, size));
+            if found.is_none() {
+                self.frequencies.push((solid.material.clone(), size, squared));
+            }
+            most = f64::max(most, squared);
+        }
+        2.0 / most.sqrt()
+    }
+}
+
+fn memory_of(kinds: &[Kind]) -> f64 {
+    let each = |kind: &Kind| match kind.size {
+        1 => BYTES_AN_ATOM,
+        _ => BYTES_A_NODE * kind.nodes_each as f64,
+    };
+    kinds.iter().map(|kind| kind.number as f64 * each(kind)).sum()
+}
+
+fn seconds_of_a_step(kinds: &[Kind]) -> f64 {
+    let each = |kind: &Kind| match kind.size {
+        1 => SECONDS_AN_ATOM,
+        size => SECONDS_AN_ELEMENT + SECONDS_A_FACE_SITE * 2.0 * f64::from(size).powi(2),
+    };
+    kinds.iter().map(|kind| kind.number as f64 * each(kind)).sum()
+}
+
+/// Refuses a mesh that so many ranks on this machine would not fit into what is free of its memory, before it is made.
+pub fn refuse_what_does_not_fit(sites: u64, element: u32, ranks: u32) -> Result<(), SetupError> {
+    let volume = u64::from(element).pow(3);
+    let a_site = match element {
+        1 => BYTES_AN_ATOM,
+        _ => BYTES_A_NODE * 14.0 / volume as f64,
+    };
+    let needed = u64::from(ranks).saturating_mul((BYTES_A_PROCESS + a_site * sites as f64) as u64);
+    match memory::free() {
+        Some(present) if needed > present => Err(SetupError::TooLarge {
+            sites,
+            ranks,
+            needed,
+            present,
+        }),
+        _ => Ok(()),
+    }
+}
+
+fn squared_frequency(material: &Material, size: u32) -> f64 {
+    let cells = size.max(SMALLEST_BLOCK as u32) as i32;
+    let plan = Plan {
+        sites: Sites {
+            outline: Outline::Rhombohedron([2 * cells, cells, cells]),
+            frame: Frame::of_blocks(material.spacing),
+            removed: Vec::new(),
+        },
+        element: size as u16,
+        regions: Vec::new(),
+        spacing: material.spacing,
+    };
+    let mesh = Mesh::new(&plan);
+    let position = mesh.node_positions();
+    Forces::new(mesh, *material).squared_frequency_bound(&position)
+}

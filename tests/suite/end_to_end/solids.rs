@@ -1,0 +1,77 @@
+//! Solids from the study file to the report.
+
+use std::collections::BTreeMap;
+use std::fs;
+
+use super::{Program, Workspace, assert_same_results, files, table, wait_for};
+
+const SOLID: &str = include_str!("../../studies/solid.yaml");
+
+/// Of the work, in steps of half the limit through broken bonds.
+const ENERGY: f64 = 0.02;
+
+/// Of the modulus, which at this size is that of surfaces and of one row of elements.
+const MODULUS: f64 = 0.25;
+
+fn number(row: &BTreeMap<String, String>, name: &str) -> f64 {
+    row[name].parse().unwrap_or(f64::NAN)
+}
+
+fn workspace(from: &str, to: &str) -> Workspace {
+    assert!(SOLID.contains(from));
+    Workspace::with(&SOLID.replace("study: solid", "study: slab").replace(from, to))
+}
+
+#[test]
+fn a_study_of_a_solid_becomes_a_report_that_answers() {
+    let place = workspace("", "");
+    let json = place.cgaft("check", &["--json"]).succeeded().json();
+    let of_cases = |key: &str| -> Vec<u64> {
+        let cases = json["cases"].as_array().unwrap().iter();
+        cases.map(|case| case[key].as_u64().unwrap()).collect()
+    };
+    // Eight blocks of 216; of the two in the middle row atoms in one case, of all in another.
+    assert_eq!(of_cases("represented_atoms"), [1728; 3]);
+    assert_eq!(of_cases("nodes"), [8 * 14, 6 * 14 + 2 * 216, 1728]);
+    place.cgaft("run", &[]).succeeded();
+    let summary = table(&place.results(), "summary");
+    assert_eq!(summary.len(), 3);
+    let finest = number(&summary[2], "modulus_gpa");
+    for row in &summary {
+        assert!(number(row, "energy_error_relative") < ENERGY, "{row:?}");
+        assert!((number(row, "modulus_gpa") / finest - 1.0).abs() < MODULUS, "{row:?}");
+        assert!(number(row, "broken_bonds") > 10.0, "{row:?}");
+        assert!(number(row, "first_break_strain") > 0.01, "{row:?}");
+    }
+    // The gauge in the middle moves half as fast as the face that moves.
+    let gauges = table(&place.results(), "gauges");
+    let start = number(&gauges[0], "velocity_y_m_per_s");
+    assert!((start / 50.0 - 1.0).abs() < 0.05, "{start}");
+    let page = fs::read_to_string(place.results().join("report.html")).unwrap();
+    assert!(
+        page.contains("Elements: ") && page.contains("bonds first change at"),
+        "no answer"
+    );
+    assert!(page.contains("3 of 3 cases done."));
+    assert!(place.results().join("figures/stress.svg").exists());
+    for file in ["series.h5", "fields.vtkhdf", "checkpoint.h5", "case.yaml"] {
+        assert!(place.case("mixed").join(file).exists(), "{file}");
+    }
+}
+
+#[test]
+fn a_solid_that_is_killed_goes_on_to_the_same_bytes() {
+    let places = [(); 2].map(|()| workspace("threads: 1", "threads: 1, checkpoint-every: 1 ms"));
+    let [whole, parted] = &places;
+    whole.cgaft("run", &["--only", "mixed"]).succeeded();
+    let mut program = Program::start(&mut parted.command("run", &["--only", "mixed"]), parted);
+    let is_there = || {
+        files(&parted.results())
+            .iter()
+            .any(|path| path.ends_with("checkpoint.h5"))
+    };
+    wait_for("a checkpoint", is_there);
+    program.kill();
+    parted.cgaft("run", &["--only", "mixed"]).succeeded();
+    assert_same_results(&parted.case("mixed"), &whole.case("mixed"));
+}
