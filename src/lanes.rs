@@ -210,8 +210,9 @@ impl<S: Simd> Mask<S> {
         Self { value, ..self }
     }
 
+    /// No where it says yes, and yes elsewhere.
     #[inline(always)]
-    pub fn not(self) -> Self {
+    pub fn opposite(self) -> Self {
         let value = self.simd.not_m64s(self.value);
         Self { value, ..self }
     }
@@ -225,7 +226,7 @@ impl<S: Simd> Mask<S> {
     /// Whether it says yes in all lanes.
     #[inline(always)]
     pub fn every(self) -> bool {
-        !self.not().any()
+        !self.opposite().any()
     }
 
     /// What it says in each lane, and no after them.

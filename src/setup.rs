@@ -3,6 +3,7 @@
 mod caution;
 mod error;
 mod estimate;
+mod expected;
 mod intervals;
 pub mod memory;
 mod recorder;

@@ -190,6 +190,7 @@ fn rendered(name: &'static str, template: &'static str, page: Value) -> Result<S
     environment.add_filter("cell", markdown_cell);
     environment.add_filter("breakable", breakable);
     environment.add_filter("block", indented);
+    environment.add_filter("breakable", breakable);
     environment.add_template(name, template)?;
     Ok(environment.get_template(name)?.render(page)?)
 }

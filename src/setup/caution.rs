@@ -2,7 +2,8 @@
 
 use super::intervals::between_pictures;
 use super::slab::material;
-use crate::study::case::{Body, Case, Slab, Summation};
+use super::solid;
+use crate::study::case::{Body, Case, Loading, Slab, Summation};
 
 /// A sheet of atoms is about as thick as its atoms are apart; thicker or thinner than this many times, it is a slip of a unit.
 const UNLIKELY_THICKNESS: f64 = 20.0;
@@ -18,7 +19,14 @@ pub fn cautions(case: &Case, time: f64) -> Vec<String> {
 
 /// Pictures that the run ends before.
 fn pictures(case: &Case, time: f64) -> Option<String> {
-    let every = between_pictures(case).filter(|&every| every > time)?;
+    let strain_rate = match &case.body {
+        Body::Slab(slab) => {
+            let Loading::StrainRate { rate, .. } = slab.loading;
+            Some(rate)
+        }
+        Body::Solid(solid) => solid::strain_rate(solid),
+    };
+    let every = between_pictures(case, strain_rate).filter(|&every| every > time)?;
     Some(format!(
         "with a picture every {every:.3} ps a run of about {time:.3} ps has none but those of its start and its end; write a \
          shorter `snapshots: {{every: …}}`, such as {:.2e} ps",

@@ -1,6 +1,6 @@
 //! Intervals against what they are made of.
 
-use super::{SetupError, solid};
+use super::SetupError;
 use crate::study::Subject;
 use crate::study::case::{Body, Case, Loading, SnapshotInterval};
 
@@ -10,7 +10,7 @@ const MOST_A_STEP: f64 = 10.0;
 
 /// Refuses probes and pictures that would come many times a step, rest that would be over between two probes, and damping that
 /// would take all motion out within a step. The time step in ps.
-pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
+pub fn refuse_too_short(case: &Case, strain_rate: Option<f64>, time_step: f64) -> Result<(), SetupError> {
     let damping = match &case.body {
         Body::Slab(slab) => {
             let Loading::StrainRate { damping, .. } = slab.loading;
@@ -31,7 +31,7 @@ pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
         (
             Subject::Snapshots,
             "the time between two pictures",
-            between_pictures(case),
+            between_pictures(case, strain_rate),
             part,
         ),
         (
@@ -61,15 +61,8 @@ pub fn refuse_too_short(case: &Case, time_step: f64) -> Result<(), SetupError> {
     Ok(())
 }
 
-/// Time between two pictures, ps.
-pub fn between_pictures(case: &Case) -> Option<f64> {
-    let strain_rate = match &case.body {
-        Body::Slab(slab) => {
-            let Loading::StrainRate { rate, .. } = slab.loading;
-            Some(rate)
-        }
-        Body::Solid(solid) => solid::strain_rate(solid),
-    };
+/// Time between two pictures, ps, under a loading that makes so much strain a ps, if it makes any.
+pub fn between_pictures(case: &Case, strain_rate: Option<f64>) -> Option<f64> {
     match case.snapshots.every? {
         SnapshotInterval::Strain(strain) => strain_rate.map(|rate| strain / rate),
         SnapshotInterval::Time(time) => Some(time),

@@ -110,7 +110,7 @@ impl<L: Simd> Face<L> {
                 excluded = excluded.or(squared.is_below(least)).or(squared.is_above(most));
             }
         }
-        excluded.not()
+        excluded.opposite()
     }
 
     /// The sum over all bonds, all of which are within the cutoff; `untouched` if no treatment of the cutoff reaches any. `few`

@@ -207,9 +207,12 @@ fn gauges(case: &Analysed) -> Vec<Chart> {
     ]
 }
 
+/// A column of the series.
+type Column = fn(&Series) -> &Vec<f64>;
+
 fn energies(case: &Analysed) -> Chart {
     let series = case.series();
-    let curve = |(style, (label, of)): (usize, (&str, fn(&Series) -> &Vec<f64>))| Curve {
+    let curve = |(style, (label, of)): (usize, (&str, Column))| Curve {
         label: label.to_owned(),
         style,
         points: series.map_or_else(Vec::new, |series| {
@@ -219,7 +222,7 @@ fn energies(case: &Analysed) -> Chart {
         }),
         ..Curve::default()
     };
-    let parts: [(&str, fn(&Series) -> &Vec<f64>); 4] = [
+    let parts: [(&str, Column); 4] = [
         ("work", |series| &series.work),
         ("kinetic", |series| &series.kinetic),
         ("potential", |series| &series.potential),

@@ -87,7 +87,7 @@ fn warning(cases: &[Analysed]) -> Option<String> {
             .energy_error
             .is_some_and(|error| error > MUCH_MISSING)
     });
-    let names: Vec<&str> = missing.map(|case| case.name()).collect();
+    let names: Vec<&str> = missing.map(super::Analysed::name).collect();
     (!names.is_empty()).then(|| {
         format!(
             "Beware: in {} more than {} % of the work is missing from the energies: the time step or the summation is too \

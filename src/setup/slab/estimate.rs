@@ -10,7 +10,7 @@ use crate::loading::{Grip, Stretching, longest_step};
 use crate::material::Material;
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
-use crate::setup::estimate::{self, Estimate, ranks, time_of_run};
+use crate::setup::expected::{Expected, ranks, time_of_run};
 use crate::setup::intervals::between_pictures;
 use crate::setup::{SetupError, memory};
 use crate::solver::{Settings, Solver, SolverError, TimeStep};
@@ -63,7 +63,7 @@ struct Crystal {
 
 impl Estimator {
     /// The estimate of a case; an error is physical nonsense that only the mesh or the material reveals.
-    pub fn estimate(&mut self, case: &Case, slab: &Slab) -> Result<Estimate, SetupError> {
+    pub fn estimate(&mut self, case: &Case, slab: &Slab) -> Result<Expected<Specimen>, SetupError> {
         let material = self.material(slab)?;
         let plan = mesh_plan(slab, &case.run.until, &material)?;
         refuse_what_does_not_fit(&plan, ranks(case))?;
@@ -194,7 +194,7 @@ fn estimate_with(
     specimen: Specimen,
     census: &Census,
     [stability_limit, longest]: [f64; 2],
-) -> Result<Estimate, SetupError> {
+) -> Result<Expected<Specimen>, SetupError> {
     let case::Loading::StrainRate { rate, .. } = slab.loading;
     let settings = settings(case, slab);
     let time_step = settings.time_step.choose(stability_limit, longest)?;
@@ -202,7 +202,7 @@ fn estimate_with(
     let steps = settings
         .until
         .steps(0, 0.0, time_step, |strain| (strain - start) / rate);
-    let time = time_of_run(case, steps, time_step)?;
+    let time = time_of_run(case, Some(rate), steps, time_step)?;
     // The constants are those of nearest neighbours, three bonds a site; half of what an atom costs is not bonds.
     let reach = LOOKED_AT * material.interaction.cutoff() / material.spacing;
     let bonds = triangular::half_vectors_within(reach).len() as f64 / 3.0;
@@ -211,11 +211,11 @@ fn estimate_with(
         _ => (SECONDS_A_TRIANGLE + SECONDS_AN_EDGE_SITE * 3.0 * f64::from(size)) * bonds,
     };
     let seconds_of_probes = SECONDS_A_PROBE * time / case.probes.every;
-    Ok(Estimate {
+    Ok(Expected {
         nodes: census.node_count(),
         elements: census.element_count(),
         represented_atoms: census.sites,
-        specimen: estimate::Specimen::Slab(specimen),
+        specimen,
         time_step,
         stability_limit,
         steps,
@@ -230,7 +230,8 @@ fn estimate_with(
 /// while it is replaced. A probe has some forty doubles and five for every bin of the profile, none narrower than two
 /// spacings, and stands there twice while the series is put together.
 fn disk(case: &Case, slab: &Slab, census: &Census, spacing: f64, [time, steps]: [f64; 2]) -> u64 {
-    let every = between_pictures(case).unwrap_or(f64::INFINITY);
+    let case::Loading::StrainRate { rate, .. } = slab.loading;
+    let every = between_pictures(case, Some(rate)).unwrap_or(f64::INFINITY);
     let pictures = (time / every).floor().min(steps) + 2.0;
     let [nodes, elements] = [census.node_count() as f64, census.element_count() as f64];
     let series =

@@ -6,22 +6,24 @@ use crate::forces::solid::Forces;
 use crate::material::Material;
 use crate::mesh::solid::sites::{Frame, Outline, Sites};
 use crate::mesh::solid::{Plan, SMALLEST_BLOCK, Solid as Mesh};
-use crate::setup::estimate::{self, Estimate, ranks, time_of_run};
+use crate::setup::expected::{Expected, ranks, time_of_run};
 use crate::setup::intervals::between_pictures;
 use crate::setup::{SetupError, memory};
 use crate::study::case::{self, Case, Solid, TimeStep};
 
-/// Bytes: of a process that computes hardly anything, and what an atom, a tetrahedron and an octahedron add.
-const BYTES_A_PROCESS: f64 = 20e6;
-const BYTES_AN_ATOM: f64 = 250.0;
-const BYTES_A_NODE: f64 = 400.0;
+/// Bytes of a process that computes hardly anything, and what an atom and a node of an element add, from the peaks of the film of
+/// `quickstart-3d.yaml` in atoms and of the bar of `wave-bar.yaml` in blocks of five cells.
+const BYTES_A_PROCESS: f64 = 36e6;
+const BYTES_AN_ATOM: f64 = 480.0;
+const BYTES_A_NODE: f64 = 340.0;
 
 /// Seconds on one core: to start and to publish a run, of a probe, and in a step of an atom, of an element, and of a site
-/// on its faces.
+/// on its faces. Fitted to the film of `quickstart-3d.yaml` in atoms and to the bar of `wave-bar.yaml` in blocks of ten and of
+/// five cells, on a shared EPYC; what is torn takes longer.
 const SECONDS_A_RUN: f64 = 0.15;
 const SECONDS_A_PROBE: f64 = 1e-4;
-const SECONDS_AN_ATOM: f64 = 60e-9;
-const SECONDS_AN_ELEMENT: f64 = 100e-9;
+const SECONDS_AN_ATOM: f64 = 50e-9;
+const SECONDS_AN_ELEMENT: f64 = 300e-9;
 const SECONDS_A_FACE_SITE: f64 = 1e-9;
 
 /// Estimates solids, and remembers what many cases of one study have in common.
@@ -32,7 +34,7 @@ pub struct Estimator {
 }
 
 impl Estimator {
-    pub fn estimate(&mut self, case: &Case, solid: &Solid) -> Result<Estimate, SetupError> {
+    pub fn estimate(&mut self, case: &Case, solid: &Solid) -> Result<Expected<Specimen>, SetupError> {
         refuse_what_is_not_there(case, solid)?;
         let material = material(solid)?;
         let laid = lay_out(solid, material.spacing)?;
@@ -44,13 +46,14 @@ impl Estimator {
             TimeStep::Given(step) => step,
         };
         let until = &case.run.until;
-        let by_strain = until.strain.zip(strain_rate(solid)).map(|(strain, rate)| strain / rate);
+        let rate = strain_rate(solid);
+        let by_strain = until.strain.zip(rate).map(|(strain, rate)| strain / rate);
         let end = by_strain
             .unwrap_or(f64::INFINITY)
             .min(until.time.unwrap_or(f64::INFINITY));
         let steps = (end / time_step).ceil() as u64;
-        let time = time_of_run(case, steps, time_step)?;
-        let pictures = (time / between_pictures(case).unwrap_or(f64::INFINITY))
+        let time = time_of_run(case, rate, steps, time_step)?;
+        let pictures = (time / between_pictures(case, rate).unwrap_or(f64::INFINITY))
             .floor()
             .min(steps as f64)
             + 2.0;
@@ -61,7 +64,7 @@ impl Estimator {
         let seconds = SECONDS_A_RUN
             + SECONDS_A_PROBE * time / case.probes.every
             + seconds_of_a_step(&specimen.kinds) * steps as f64;
-        Ok(Estimate {
+        Ok(Expected {
             nodes: specimen.nodes,
             elements: specimen.elements,
             represented_atoms: specimen.sites,
@@ -71,7 +74,7 @@ impl Estimator {
             memory_bytes: bytes as u64 * u64::from(ranks(case)),
             disk_bytes: disk as u64,
             seconds,
-            specimen: estimate::Specimen::Solid(specimen),
+            specimen,
         })
     }
 

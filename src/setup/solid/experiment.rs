@@ -228,7 +228,7 @@ impl Setup<'_> {
             ..
         } = self.solid.loading
         {
-            let opposite = opposite(face);
+            let opposite = face.opposite();
             let along = self.laid.direction(face, direction);
             let length = self.laid.strained_length(self.solid, face, direction, depth);
             let held = self.solid.held.as_ref().filter(|held| held.faces.contains(&opposite));
@@ -257,14 +257,6 @@ impl Setup<'_> {
             rate: None,
         }
     }
-}
-
-pub fn opposite(face: Face) -> Face {
-    let side = match face.side {
-        Side::Low => Side::High,
-        Side::High => Side::Low,
-    };
-    Face { side, ..face }
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Sites, elements, regions and faces of a solid, from what a case asks for.
 
-use super::experiment::opposite;
 use crate::mesh::solid::Plan;
 use crate::mesh::solid::region::{Region, Shape as RegionShape};
 use crate::mesh::solid::sites::{Frame, Outline, Range3, Sites};
@@ -179,7 +178,7 @@ impl Laid {
 
     /// Between a face that moves to a depth and what is held opposite, nm.
     pub fn free_length(&self, solid: &Solid, face: Face, depth: Depth) -> f64 {
-        let held = solid.held.as_ref().filter(|held| held.faces.contains(&opposite(face)));
+        let held = solid.held.as_ref().filter(|held| held.faces.contains(&face.opposite()));
         let held = held.map_or(0.0, |held| self.depth(face.axis, held.depth));
         self.thickness(face.axis) - self.depth(face.axis, depth) - held
     }

@@ -103,6 +103,17 @@ pub struct Face {
     pub side: Side,
 }
 
+impl Face {
+    /// The other face of its axis.
+    pub fn opposite(self) -> Self {
+        let side = match self.side {
+            Side::Low => Side::High,
+            Side::High => Side::Low,
+        };
+        Self { side, ..self }
+    }
+}
+
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub enum Side {
     Low,
