@@ -1,16 +1,19 @@
 //! The page: everything a reader needs, in one file that asks nothing of the network.
 
+mod text;
+
 use super::chart::{Chart, Drawing};
 use super::overview::{self, Group, Row};
 use super::picture::{Gallery, Picture};
 use super::side_by_side::Panel;
 use super::table::Table;
 use super::tables::{cheapest, comparison, specimen, speed_against_error};
-use super::{Analysed, CaseResult, ReportError, Study, agreement, method, numbers, scaling, verdict};
+use super::{Analysed, CaseResult, ReportError, Study, agreement, method, numbers, scaling, sweep, verdict};
 use crate::plan::Comparison;
 use crate::units::amounts::duration;
 use minijinja::syntax::SyntaxConfig;
-use minijinja::{AutoEscape, Environment, HtmlEscape, Value, context};
+use minijinja::{AutoEscape, Environment, Value, context};
+use text::{base64, breakable, indented, markdown_cell};
 
 /// Tables longer than this are linked instead of shown.
 const SHOWN_ROWS: usize = 60;
@@ -92,9 +95,13 @@ impl Page<'_> {
         match self.scaling.and_then(scaling::verdict) {
             Some(gain) => vec![format!("{} {gain}", verdict::done(self.cases))],
             None => {
-                let mut sentences = cheapest::recommendations(&speed_against_error::rows(self.cases));
-                sentences.extend(verdict::verdict(self.cases));
-                sentences
+                let advice = cheapest::recommendations(&speed_against_error::rows(self.cases));
+                let verdict = verdict::verdict(self.cases);
+                // A sweep asks how something depends on its keys, other studies of many meshes which of them to take.
+                match sweep::keys(self.cases).is_empty() {
+                    true => [advice, verdict].concat(),
+                    false => [verdict, advice].concat(),
+                }
             }
         }
     }
@@ -181,6 +188,7 @@ fn rendered(name: &'static str, template: &'static str, page: Value) -> Result<S
         false => AutoEscape::None,
     });
     environment.add_filter("cell", markdown_cell);
+    environment.add_filter("breakable", breakable);
     environment.add_filter("block", indented);
     environment.add_filter("breakable", breakable);
     environment.add_template(name, template)?;
@@ -313,73 +321,9 @@ fn picoseconds(value: f64) -> String {
     format!("{} ps", numbers::significant(value, 4))
 }
 
-/// Text that stays within a cell of a Markdown table and is not taken for markup.
-fn markdown_cell(text: &str) -> String {
-    let mut safe = String::new();
-    for sign in text.chars() {
-        match sign {
-            '<' => safe.push_str("&lt;"),
-            '>' => safe.push_str("&gt;"),
-            '&' => safe.push_str("&amp;"),
-            '\n' | '\r' => safe.push(' '),
-            '|' | '*' | '_' | '`' | '[' | ']' | '\\' | '#' => safe.extend(['\\', sign]),
-            sign => safe.push(sign),
-        }
-    }
-    safe
-}
-
-/// A name that a narrow column may break behind its dots, but for those of numbers.
-fn breakable(name: &str) -> Value {
-    let mut safe = String::new();
-    let mut parts = name.split('.').peekable();
-    while let Some(part) = parts.next() {
-        safe.push_str(&HtmlEscape(part).to_string());
-        match parts.peek() {
-            Some(next) if next.starts_with(|letter: char| letter.is_ascii_digit()) => safe.push('.'),
-            Some(_) => safe.push_str(".<wbr>"),
-            None => {}
-        }
-    }
-    Value::from_safe_string(safe)
-}
-
-/// Text as a block of code that nothing in it can end.
-fn indented(text: &str) -> String {
-    text.lines().map(|line| format!("    {line}\n")).collect()
-}
-
-/// Bytes as text for a data address. [RFC 4648]
-fn base64(bytes: &[u8]) -> String {
-    const SIGNS: &[u8; 64] = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    let mut text = String::with_capacity(bytes.len().div_ceil(3) * 4);
-    for group in bytes.chunks(3) {
-        let word = group.iter().fold(0, |word, &byte| word << 8 | u32::from(byte)) << (8 * (3 - group.len()));
-        for place in 0..4 {
-            let sign = SIGNS[(word >> (18 - 6 * place) & 63) as usize];
-            text.push(if place <= group.len() { char::from(sign) } else { '=' });
-        }
-    }
-    text
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn base64_follows_the_test_vectors_of_the_standard() {
-        let vectors = [
-            ("", ""),
-            ("f", "Zg=="),
-            ("fo", "Zm8="),
-            ("foo", "Zm9v"),
-            ("foobar", "Zm9vYmFy"),
-        ];
-        vectors
-            .iter()
-            .for_each(|(plain, coded)| assert_eq!(base64(plain.as_bytes()), *coded));
-    }
 
     #[test]
     fn wide_tables_are_cut_into_pieces_that_paper_can_hold_each_with_the_names_of_its_rows() {
@@ -388,16 +332,5 @@ mod tests {
         let row = vec![text(10); 6];
         let pieces = pieces(&columns, &[row]);
         assert_eq!(pieces, [vec![0, 1], vec![0, 2, 3], vec![0, 4], vec![0, 5]]);
-    }
-
-    #[test]
-    fn names_break_behind_dots_but_numbers_do_not() {
-        assert_eq!(breakable("run.time-step").to_string(), "run.<wbr>time-step");
-        assert_eq!(breakable("rate-9.81e7 <a>").to_string(), "rate-9.81e7 &lt;a&gt;");
-    }
-
-    #[test]
-    fn markdown_cells_cannot_be_left() {
-        assert_eq!(markdown_cell("a|b\n<i>"), "a\\|b &lt;i&gt;");
     }
 }

@@ -81,7 +81,7 @@ pub struct CaseResult {
 }
 
 impl CaseResult {
-    /// Cores taken times wall time, s.
+    /// Time that processors worked, s.
     pub fn core_seconds(&self) -> Option<f64> {
         self.manifest.core_seconds
     }

@@ -342,7 +342,8 @@ fn the_report_names_what_failed_with_the_end_of_its_log() {
 
 #[test]
 fn the_comparison_shows_only_the_choices_that_differ() {
-    let page = text(&written(&three_meshes()), "report.html");
+    // Where a narrow column may break a name is no part of it.
+    let page = text(&written(&three_meshes()), "report.html").replace("<wbr>", "");
     let table = page
         .split("class=\"side\"")
         .nth(1)
