@@ -6,51 +6,18 @@ mod method;
 mod overview;
 mod picture;
 mod series;
+pub mod specimen;
 mod tables;
 mod verdict;
 
 pub use series::{Gauge, Series};
+pub use specimen::{Solid, Specimen};
 
 use std::path::Path;
 
 use super::page::Solids;
-use super::{CaseResult, Film, ReportError, Study, save};
+use super::{CaseResult, ReportError, Study, save};
 use findings::Findings;
-
-/// What a case of a solid has beside what any case has.
-#[derive(Clone, Debug, Default)]
-pub struct Solid {
-    pub specimen: Specimen,
-    /// `None` where nothing was computed or nothing can be read.
-    pub series: Option<Series>,
-    /// The pictures that the run took.
-    pub film: Option<Film<[f64; 3]>>,
-}
-
-/// A solid as it is laid out; in words where the page shows words.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Specimen {
-    /// Lengths along its axes, with their names, nm.
-    pub edges: Vec<(&'static str, f64)>,
-    /// `1,590 octahedra of 10, 3,180 tetrahedra of 10`
-    pub kinds: String,
-    pub notch: String,
-    pub held: String,
-    pub loading: String,
-    /// Where the loading pulls, of length 1.
-    pub direction: [f64; 3],
-    /// Distance of nearest neighbours, nm.
-    pub spacing: f64,
-    pub nodes: u64,
-    pub elements: u64,
-    pub atoms: u64,
-    /// Elements that are single atoms.
-    pub atoms_alone: u64,
-    /// Share of the atoms in smaller elements than asked for.
-    pub leftover_share: Option<f64>,
-    /// Equal for cases that are one computation, however they were asked for.
-    pub computation: u64,
-}
 
 /// A case with what its series says.
 struct Analysed<'a> {

@@ -1,7 +1,7 @@
 //! What a report is made from: plain values, whoever read them from where.
 
 use super::film::Film;
-use super::solid::Solid;
+use super::solid::specimen::Solid;
 use crate::analysis::series::{Series, Setting};
 use crate::domain::{Burden, MessageCost};
 use crate::plan::{Comparison, SideBySide, Stages, Swept};

@@ -133,7 +133,7 @@ fn temperature(cases: &[Analysed]) -> Chart {
         cases,
         "temperature",
         "Temperature of the atoms",
-        "Kinetic temperature of the single atoms, where there are any: [Deng2011] Eq. (3-22).",
+        "Kinetic temperature of the single atoms, where there are any, by the mean of their kinetic energies.",
         "temperature (K)",
         curves(cases, |_, series| series.temperature.clone()),
     )
