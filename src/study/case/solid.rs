@@ -215,7 +215,7 @@ pub enum Pull {
 pub enum PulseShape {
     /// One half of a sine.
     HalfSine,
-    /// A Gaussian whose full width at half maximum is half of the duration.
+    /// A Gaussian whose full width at half maximum is a quarter of the duration.
     Gaussian,
 }
 

@@ -123,7 +123,7 @@ pub struct Pulse {
 pub enum PulseShape {
     /// One half of a sine.
     HalfSine,
-    /// A Gaussian whose full width at half maximum is half of the duration.
+    /// A Gaussian whose full width at half maximum is a quarter of the duration.
     Gaussian,
 }
 

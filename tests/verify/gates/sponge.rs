@@ -2,7 +2,7 @@
 
 use cgaft::forces::Forces;
 use cgaft::integrator::{kick, kick_and_drift, leap};
-use cgaft::loading::{Grip, Layers, Sponge, Stretching};
+use cgaft::loading::{Grip, Layers, Load, Sponge, Stretching};
 use cgaft::state::State;
 
 use super::pulses::bar_across_rows;
@@ -61,7 +61,7 @@ fn reflection(wavelength: f64, with_sponge: bool) -> f64 {
     let nodes = state.every_node();
     while time * WAVE_SPEED < high - low {
         kick_and_drift(&mut state, &nodes, leap(1, TIME_STEP));
-        grips.absorb(&mut state, &nodes, TIME_STEP);
+        grips.damp(&mut state, &nodes, TIME_STEP);
         compute(&mut state);
         kick(&mut state, &nodes, 0.5 * TIME_STEP);
         time += TIME_STEP;

@@ -2,7 +2,7 @@
 
 use cgaft::analysis::series::RINGS;
 use cgaft::forces::Forces;
-use cgaft::loading::{Grip, Stretching};
+use cgaft::loading::{Grip, Load, Stretching};
 use cgaft::material::Material;
 use cgaft::mesh::cut::Cut;
 use cgaft::mesh::sites::Layout;
