@@ -49,6 +49,13 @@ pub trait Load<const D: usize> {
     /// Work so far, eV. All ranks must ask for it together.
     fn work(&self, ranks: Ranks) -> f64;
 
+    /// What central differences leave open of the energy in a step of this time, ps, with its present forces: dt^2 F^2/(8 m) a
+    /// node, eV. It oscillates with the forces and does not grow; where these set in it is as much as their work. All ranks must
+    /// ask for it together.
+    fn unresolved(&self, _state: &State<D>, _time_step: f64, _ranks: Ranks) -> f64 {
+        0.0
+    }
+
     /// The longest step that its motion allows, ps, in a lattice of this spacing, nm.
     fn longest_step(&self, spacing: f64) -> f64;
 }

@@ -126,6 +126,16 @@ impl<const D: usize> Load<D> for Ball<D> {
         self.work.total(ranks)
     }
 
+    fn unresolved(&self, state: &State<D>, time_step: f64, ranks: Ranks) -> f64 {
+        let [sum] = self.work.sum(ranks, |place| {
+            let node = self.nodes[place] as usize;
+            let of_axis =
+                |axis: usize| self.forces[place][axis] * self.forces[place][axis] * state.mobility[axis][node];
+            [(0..D).map(of_axis).sum::<f64>()]
+        });
+        0.125 * time_step * time_step * sum
+    }
+
     /// The contact is soft: the step of the crystal is short enough for it.
     fn longest_step(&self, _: f64) -> f64 {
         f64::INFINITY
@@ -242,5 +252,22 @@ mod tests {
         assert!((push(0.1) - 10.0 * 0.01).abs() < 1e-14);
         let stiffness = (push(2e-4) - push(1e-4)) / 1e-4;
         assert!(stiffness < 0.01, "{stiffness}");
+    }
+
+    #[test]
+    fn a_step_leaves_open_an_eighth_of_what_its_force_would_do_squared() {
+        let (mut ball, mut state) = ball();
+        ball.force(&mut state, 0.0);
+        let squares = |node: usize| {
+            (0..3)
+                .map(|axis| state.force[axis][node] * state.force[axis][node])
+                .sum::<f64>()
+        };
+        let all: f64 = (0..4).map(squares).sum();
+        let found = ball.unresolved(&state, 0.5, Ranks::alone());
+        assert!(
+            all > 0.0 && (found / (0.125 * 0.25 * all) - 1.0).abs() < 1e-14,
+            "{found} for {all}"
+        );
     }
 }

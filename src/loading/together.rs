@@ -76,6 +76,13 @@ impl<const D: usize> Load<D> for Together<D> {
         self.0.iter().map(|(_, action)| action.work(ranks)).sum()
     }
 
+    fn unresolved(&self, state: &State<D>, time_step: f64, ranks: Ranks) -> f64 {
+        let actions = self.0.iter();
+        actions
+            .map(|(_, action)| action.unresolved(state, time_step, ranks))
+            .sum()
+    }
+
     fn longest_step(&self, spacing: f64) -> f64 {
         let longest = self.0.iter().map(|(_, action)| action.longest_step(spacing));
         longest.fold(f64::INFINITY, f64::min)

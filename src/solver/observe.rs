@@ -62,8 +62,12 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             observer.progress(&self.progress());
         }
         let strain = self.strain();
+        let ranks = self.body.domain().ranks();
+        let unresolved = self.body.load().unresolved(&self.state, self.clock.time_step, ranks);
         self.ledger
-            .check(self.clock.step, self.clock.time, strain, || self.fastest_node())?;
+            .check(self.clock.step, self.clock.time, strain, unresolved, || {
+                self.fastest_node()
+            })?;
         Ok(())
     }
 
