@@ -36,6 +36,15 @@ fn only_id(text: &str) -> CaseId {
 }
 
 #[test]
+fn the_cases_of_the_quickstart_keep_their_ids() {
+    // Results on people's disks are found by them. Only what changes a result may change an id.
+    let ids = planned(include_str!("../../studies/quickstart.yaml"))
+        .into_iter()
+        .map(|case| case.id.case.to_string());
+    assert!(ids.eq(["67a51c3c986faba0", "77aaab5fd588a2fd", "892c65f0ca525cf3"]));
+}
+
+#[test]
 fn a_case_changes_only_what_it_names() {
     let cases = with("cases:\n  A: {}\n  B: {loading: {strain-rate: {rate: 9.2e6 /s}}, crack: {length: 225 nm}}\n");
     let [a, b] = [&cases[0].case, &cases[1].case];

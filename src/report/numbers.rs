@@ -27,6 +27,16 @@ pub fn count(value: u64) -> String {
     grouped(&value.to_string())
 }
 
+/// A number that is a whole one but for rounding.
+pub fn whole(value: f64) -> String {
+    let digits = count(value.abs().round() as u64);
+    if value.round() < 0.0 {
+        format!("−{digits}")
+    } else {
+        digits
+    }
+}
+
 /// A share in percent, with its sign where it is large enough to have one.
 pub fn signed_percent(share: f64) -> String {
     let percent = share * 100.0;
@@ -108,6 +118,14 @@ mod tests {
         assert_eq!(significant(-2.5e-7, 2), "−2.5 × 10⁻⁷");
         assert_eq!(significant(9.996, 3), "10.0");
         assert_eq!(significant(f64::NAN, 3), ABSENT);
+    }
+
+    #[test]
+    fn whole_numbers_have_no_decimals() {
+        assert_eq!(
+            [90.000_000_01, -0.2, -12_345.0].map(whole),
+            ["90", "0", "−12\u{202f}345"]
+        );
     }
 
     #[test]

@@ -2,7 +2,7 @@
 
 use super::findings::{Moment, distance};
 use super::{Analysed, reference};
-use crate::report::numbers::{ABSENT, count, signed_percent, significant};
+use crate::report::numbers::{ABSENT, count, signed_percent, significant, whole};
 use crate::report::overview::{Group, Row, differing};
 use crate::report::units::{GIGAPASCAL, PERCENT};
 use crate::units::amounts::duration;
@@ -96,9 +96,7 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "stress there (GPa)", |case| {
             case.findings.first_break.map(|start| three(start.stress * GIGAPASCAL))
         }),
-        row(cases, "bonds lost at the end", |case| {
-            case.findings.broken.map(|broken| significant(broken, 9))
-        }),
+        row(cases, "bonds lost at the end", |case| case.findings.broken.map(whole)),
         row(cases, "borders of elements open at the end", |case| {
             let open = case.series()?.open_interfaces.last().copied()?;
             (case.solid.specimen.elements > case.solid.specimen.atoms_alone).then(|| count(open as u64))
