@@ -10,6 +10,8 @@
 mod certified;
 mod drift;
 mod edges;
+mod exposed;
+mod extents;
 mod faces;
 mod frequency;
 mod grid;
@@ -19,6 +21,7 @@ mod pairs;
 mod points;
 pub mod referee;
 mod rule;
+mod strained;
 mod sums;
 mod sweep;
 #[cfg(test)]
@@ -79,7 +82,7 @@ pub struct Forces {
     /// One for each interface that is intact, zero for others.
     intact: Vec<f64>,
     tiles: Vec<Tile>,
-    /// `None` before the first search and after an interface has opened.
+    /// `None` before the first search and after an interface has opened that was not ready for it.
     pairs: Option<Pairs>,
     farthest: f64,
     /// The squared highest frequency of the crystal at rest, 1/ps^2, once it has been asked for.
@@ -199,7 +202,25 @@ impl Forces {
 
     fn open(&mut self, interfaces: &[u32]) {
         interfaces.iter().for_each(|&number| self.intact[number as usize] = 0.0);
-        self.pairs = None;
+        let Some(mut pairs) = self.pairs.take_if(|pairs| pairs.are_ready(interfaces)) else {
+            self.pairs = None;
+            return;
+        };
+        let mut parts: Vec<u32> = interfaces.iter().flat_map(|&number| self.beside(number)).collect();
+        parts.sort_unstable();
+        parts.dedup();
+        pairs.list_again(&parts, |part, joined| self.joined(part, joined));
+        self.pairs = Some(pairs);
+    }
+
+    /// Replaces what it is given by the parts that intact interfaces join to a part.
+    fn joined(&self, part: u32, joined: &mut Vec<u32>) {
+        joined.clear();
+        for &number in self.interfaces.of(part as usize) {
+            if self.intact[number as usize] > 0.0 {
+                joined.extend(self.beside(number).into_iter().filter(|&other| other != part));
+            }
+        }
     }
 }
 

@@ -2,6 +2,7 @@
 
 use rayon::prelude::*;
 
+#[derive(Clone, Debug, Default)]
 pub struct Grid {
     origin: [f64; 3],
     width: f64,

@@ -31,101 +31,197 @@ type Side = [f64; MOST];
 #[derive(Clone, Debug, Default)]
 pub struct Pairs {
     pub points: Points,
+    /// Interfaces that may open without a search, ascending: the sites along them are points.
+    ready: Vec<u32>,
     /// Points whose forces this rank sums: some of parts, and some atoms.
     mine: [Range<usize>; 2],
-    /// Points that it must know the places of: its own and their partners.
+    /// Points that it must know the places of: its own with partners, and these.
     followed: Vec<Range<usize>>,
-    /// For each [`MOST`] points where their partners start; side by side as many partners as there are points.
-    starts: Vec<u32>,
+    /// For each [`MOST`] points where their partners are; side by side as many partners as there are points.
+    lists: Vec<Range<u32>>,
     partners: Vec<u32>,
-    /// Where the points were when the list was made.
-    then: Vec<[f64; 3]>,
-    /// Even motion of all points since then.
+    grid: Grid,
+    /// Where the nodes were when the lists were made.
+    then: Planes,
+    /// Own nodes that carry points or may come near any.
+    watched: Vec<Range<usize>>,
+    /// Even motion of all these nodes since then.
     drift: Drift,
     lengths: Lengths,
-    /// Where they are; after them the one that stands for nobody.
+    /// Where the points are; after them the one that stands for nobody.
     places: Vec<[f64; 4]>,
     /// Forces on the points and what pairs hold of them.
     pub force: Vec<[Side; 3]>,
     pub held: Vec<[Side; PARTS]>,
 }
 
+/// What a search starts from.
+pub struct Scene<'a> {
+    pub points: Points,
+    pub ready: Vec<u32>,
+    /// The elements of this rank, all in groups and all atoms.
+    pub elements: [Range<usize>; 2],
+    pub watched: Vec<Range<usize>>,
+    pub position: &'a Planes,
+    pub lengths: Lengths,
+}
+
 impl Pairs {
-    /// Lists the partners of the points of these elements, all in groups and all atoms; `are_joined` tells parts that an intact
-    /// interface joins.
-    pub fn search(
-        points: Points,
-        elements: [Range<usize>; 2],
-        are_joined: impl Fn(u32, u32) -> bool + Sync,
-        position: &Planes,
-        lengths: Lengths,
-    ) -> Self {
+    /// Lists the partners of the points of this rank; `joined` puts the parts that intact interfaces join to a part in place of
+    /// what it is given.
+    pub fn search(scene: Scene, joined: impl Fn(u32, &mut Vec<u32>) + Sync) -> Self {
+        let Scene {
+            points,
+            ready,
+            elements,
+            watched,
+            position,
+            lengths,
+        } = scene;
         let then: Vec<[f64; 3]> = (0..points.len())
             .into_par_iter()
             .map(|point| points.place(point, position))
             .collect();
-        let grid = Grid::new(&then, |point| points.is_point(point), lengths.radius);
         let [parts, atoms] = elements;
-        let mine = [
-            points.of_elements(parts, 0..points.of_parts()),
-            points.of_elements(atoms, points.first_atom()..points.len()),
-        ];
-        let nobody = points.len() as u32;
-        let find = |point: usize, partners: &mut Vec<u32>| {
-            let (own, here) = (points.element[point], then[point]);
-            let is_of_part = points.is_of_part(point);
-            partners.clear();
-            grid.near(here, |other| {
-                let there = then[other as usize];
-                let way = [there[0] - here[0], there[1] - here[1], there[2] - here[2]];
-                let squared = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
-                if squared < lengths.radius * lengths.radius {
-                    let theirs = points.element[other as usize];
-                    let are_parts = is_of_part && points.is_of_part(other as usize);
-                    if own != theirs && (!are_parts || !are_joined(own, theirs)) {
-                        partners.push(other);
-                    }
-                }
-            });
-            partners.sort_unstable();
-        };
-        let groups = (0..points.len()).into_par_iter().step_by(MOST);
-        let side_by_side = |partners: &mut Vec<u32>, first: usize| {
-            let mut list = Vec::new();
-            for lane in 0..MOST {
-                let point = first + lane;
-                if points.is_point(point) && mine.iter().any(|mine| mine.contains(&point)) {
-                    find(point, partners);
-                    if list.len() < partners.len() * MOST {
-                        list.resize(partners.len() * MOST, nobody);
-                    }
-                    let slots = partners.iter().enumerate();
-                    slots.for_each(|(slot, &partner)| list[slot * MOST + lane] = partner);
-                }
-            }
-            list
-        };
-        let lists: Vec<Vec<u32>> = groups.map_init(Vec::new, side_by_side).collect();
-        let mut starts = vec![0];
-        let mut total = 0;
-        starts.extend(lists.iter().map(|list| {
-            total += list.len() as u32;
-            total
-        }));
-        let partners = lists.concat();
-        Self {
-            followed: followed(&mine, &partners, points.len()),
-            starts,
-            partners,
+        let count = points.len().div_ceil(MOST);
+        let mut pairs = Self {
+            ready,
+            grid: Grid::new(&then, |point| points.is_point(point), lengths.radius),
+            mine: [
+                points.of_elements(parts, 0..points.of_parts()),
+                points.of_elements(atoms, points.first_atom()..points.len()),
+            ],
+            followed: Vec::new(),
+            lists: Vec::with_capacity(count),
+            partners: Vec::new(),
+            then: position.clone(),
+            watched,
             drift: Drift::default(),
             lengths,
-            places: vec![[FAR_AWAY; 4]; points.len().next_multiple_of(MOST) + 1],
-            force: vec![[[0.0; MOST]; 3]; lists.len()],
+            places: vec![[FAR_AWAY; 4]; count * MOST + 1],
+            force: vec![[[0.0; MOST]; 3]; count],
             held: Vec::new(),
-            mine,
-            then,
             points,
+        };
+        let list = |around: &mut Around, group| pairs.list(group, around, &joined, |point| then[point]);
+        let groups = (0..count).into_par_iter();
+        let lists: Vec<Vec<u32>> = groups.map_init(Around::default, list).collect();
+        let mut total = 0;
+        pairs.lists.extend(lists.iter().map(|list| {
+            let start = total;
+            total += list.len() as u32;
+            start..total
+        }));
+        pairs.partners = lists.concat();
+        pairs.followed = pairs.with_partners();
+        pairs
+    }
+
+    /// Whether these interfaces, which have opened, need no search.
+    pub fn are_ready(&self, interfaces: &[u32]) -> bool {
+        interfaces.iter().all(|number| self.ready.binary_search(number).is_ok())
+    }
+
+    /// Lists the partners of the points of some parts again, because interfaces between them have opened.
+    pub fn list_again(&mut self, parts: &[u32], joined: impl Fn(u32, &mut Vec<u32>)) {
+        let mut around = Around::default();
+        let then = std::mem::take(&mut self.then);
+        for &part in parts {
+            let part = part as usize;
+            let points = self.points.of_elements(part..part + 1, 0..self.points.of_parts());
+            if points.is_empty() {
+                continue;
+            }
+            let groups = points.start / MOST..points.end.div_ceil(MOST);
+            for group in groups.clone() {
+                let list = self.list(group, &mut around, &joined, |point| self.points.place(point, &then));
+                let start = self.partners.len() as u32;
+                self.partners.extend(list);
+                self.lists[group] = start..self.partners.len() as u32;
+            }
+            let all = groups.start * MOST..self.points.len().min(groups.end * MOST);
+            if !self.followed.contains(&all) {
+                self.followed.push(all);
+            }
         }
+        self.then = then;
+    }
+
+    /// Partners of as many points side by side as there are lanes; none for those of other ranks.
+    fn list(
+        &self,
+        group: usize,
+        around: &mut Around,
+        joined: &impl Fn(u32, &mut Vec<u32>),
+        then: impl Fn(usize) -> [f64; 3],
+    ) -> Vec<u32> {
+        let nobody = self.points.len() as u32;
+        let mut list = Vec::new();
+        for lane in 0..MOST {
+            let point = group * MOST + lane;
+            if self.points.is_point(point) && self.mine.iter().any(|mine| mine.contains(&point)) {
+                self.find(point, around, joined, &then);
+                let partners = &around.partners;
+                if list.len() < partners.len() * MOST {
+                    list.resize(partners.len() * MOST, nobody);
+                }
+                let slots = partners.iter().enumerate();
+                slots.for_each(|(slot, &partner)| list[slot * MOST + lane] = partner);
+            }
+        }
+        list
+    }
+
+    /// Finds the partners of a point.
+    fn find(
+        &self,
+        point: usize,
+        around: &mut Around,
+        joined: &impl Fn(u32, &mut Vec<u32>),
+        then: &impl Fn(usize) -> [f64; 3],
+    ) {
+        let Around {
+            partners,
+            joined_to,
+            part,
+        } = around;
+        let (own, here) = (self.points.element[point], then(point));
+        let is_of_part = self.points.is_of_part(point);
+        if is_of_part && *part != Some(own) {
+            *part = Some(own);
+            joined(own, joined_to);
+        }
+        let reach = self.lengths.radius * self.lengths.radius;
+        partners.clear();
+        self.grid.near(here, |other| {
+            let there = then(other as usize);
+            let way = [there[0] - here[0], there[1] - here[1], there[2] - here[2]];
+            let squared = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
+            if squared < reach {
+                let theirs = self.points.element[other as usize];
+                let are_parts = is_of_part && self.points.is_of_part(other as usize);
+                if own != theirs && !(are_parts && joined_to.contains(&theirs)) {
+                    partners.push(other);
+                }
+            }
+        });
+        partners.sort_unstable();
+    }
+
+    /// Points of this rank with partners, and these, as ranges.
+    fn with_partners(&self) -> Vec<Range<usize>> {
+        let count = self.points.len();
+        let mut is_followed = vec![false; count];
+        for (group, list) in self.lists.iter().enumerate().filter(|(_, list)| !list.is_empty()) {
+            let own = group * MOST..count.min((group + 1) * MOST);
+            is_followed[own].fill(true);
+            let partners = self.partners[list.start as usize..list.end as usize].iter();
+            let partners = partners.map(|&partner| partner as usize);
+            partners
+                .filter(|&partner| partner < count)
+                .for_each(|partner| is_followed[partner] = true);
+        }
+        ranges((0..count).filter(|&point| is_followed[point] && self.points.is_point(point)))
     }
 
     /// Points whose forces this rank sums: some of parts, and some atoms.
@@ -154,33 +250,32 @@ impl Pairs {
                 *place = [x, y, z, 0.0];
             });
         }
-        self.is_current()
+        self.is_current(position)
     }
 
-    /// Whether no point of this rank has strayed from the even motion of all of them so far that a pair may have come within
-    /// the cutoff that is not listed.
-    pub fn is_current(&self) -> bool {
+    /// Whether no watched node has strayed from the even motion of all of them so far that a pair may have come within the
+    /// cutoff that is not listed. A site of a part strays no farther than the nodes that carry it.
+    pub fn is_current(&self, position: &Planes) -> bool {
         let reach = self.drift.reach(self.lengths);
-        let strays = |point: usize| {
-            let [x, y, z, _] = self.places[point];
-            let expected = self.drift.place(self.then[point]);
-            let way = [x - expected[0], y - expected[1], z - expected[2]];
+        let strays = |node: usize| {
+            let expected = self.drift.place(at(&self.then, node));
+            let now = at(position, node);
+            let way = [now[0] - expected[0], now[1] - expected[1], now[2] - expected[2]];
             // Written so that what is no number strays.
             let squared = way[0] * way[0] + way[1] * way[1] + way[2] * way[2];
             squared.is_nan() || squared > reach * reach
         };
-        let points = self.mine.iter().cloned();
-        points
+        let nodes = self.watched.iter().cloned();
+        nodes
             .into_iter()
-            .all(|mine| !mine.into_par_iter().with_min_len(MOST * CHUNK).any(strays))
+            .all(|nodes| !nodes.into_par_iter().with_min_len(MOST * CHUNK).any(strays))
     }
 
-    /// Sums from which all ranks together find the even motion of their points.
-    pub fn motion(&self) -> Moments {
+    /// Sums from which all ranks together find the even motion of their nodes.
+    pub fn motion(&self, position: &Planes) -> Moments {
         let mut moments = Moments::default();
-        for point in self.mine.iter().cloned().flatten() {
-            let [x, y, z, _] = self.places[point];
-            moments.add(self.then[point], [x, y, z]);
+        for node in self.watched.iter().cloned().flatten() {
+            moments.add(at(&self.then, node), at(position, node));
         }
         moments
     }
@@ -196,7 +291,7 @@ impl Pairs {
         self.held
             .resize(if MEASURED { groups } else { 0 }, [[0.0; MOST]; PARTS]);
         let Self {
-            starts,
+            lists,
             partners,
             places,
             force,
@@ -210,7 +305,7 @@ impl Pairs {
             arch.dispatch(Sum::<S, MEASURED> {
                 law: *law,
                 first: chunk * CHUNK,
-                starts,
+                lists,
                 partners,
                 places,
                 force,
@@ -221,8 +316,8 @@ impl Pairs {
 
     /// Gives the vector from each point of this rank to each partner.
     pub fn for_each(&self, mut give: impl FnMut([u32; 2], [f64; 3])) {
-        for (group, bounds) in self.starts.windows(2).enumerate() {
-            let list = &self.partners[bounds[0] as usize..bounds[1] as usize];
+        for (group, list) in self.lists.iter().enumerate() {
+            let list = &self.partners[list.start as usize..list.end as usize];
             for (place, &partner) in list.iter().enumerate() {
                 let point = group * MOST + place % MOST;
                 if (partner as usize) < self.points.len() {
@@ -237,22 +332,30 @@ impl Pairs {
     }
 }
 
-/// Own points and their partners, as ranges.
-fn followed(mine: &[Range<usize>; 2], partners: &[u32], points: usize) -> Vec<Range<usize>> {
-    let mut is_followed = vec![false; points];
-    mine.iter().for_each(|mine| is_followed[mine.clone()].fill(true));
-    let partners = partners.iter().map(|&partner| partner as usize);
-    partners
-        .filter(|&partner| partner < points)
-        .for_each(|partner| is_followed[partner] = true);
+/// What the search for one point leaves for the next.
+#[derive(Default)]
+struct Around {
+    partners: Vec<u32>,
+    /// The parts that intact interfaces join to this part.
+    joined_to: Vec<u32>,
+    part: Option<u32>,
+}
+
+/// Ascending numbers as ranges.
+pub fn ranges(numbers: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
     let mut ranges: Vec<Range<usize>> = Vec::new();
-    for point in (0..points).filter(|&point| is_followed[point]) {
+    for number in numbers {
         match ranges.last_mut() {
-            Some(last) if last.end == point => last.end += 1,
-            _ => ranges.push(point..point + 1),
+            Some(last) if last.end == number => last.end += 1,
+            _ => ranges.push(number..number + 1),
         }
     }
     ranges
+}
+
+#[inline(always)]
+fn at(planes: &Planes, node: usize) -> [f64; 3] {
+    [planes[0][node], planes[1][node], planes[2][node]]
 }
 
 /// The sums of some groups of points.
@@ -260,7 +363,7 @@ struct Sum<'a, S, const MEASURED: bool> {
     law: CutPotential<S>,
     /// Number of the first group.
     first: usize,
-    starts: &'a [u32],
+    lists: &'a [Range<u32>],
     partners: &'a [u32],
     places: &'a [[f64; 4]],
     force: &'a mut [[Side; 3]],
@@ -275,7 +378,7 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
         let Self {
             law,
             first,
-            starts,
+            lists,
             partners,
             places,
             force,
@@ -284,7 +387,11 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
         let lanes = Lanes::<L>::COUNT;
         for (number, force) in force.iter_mut().enumerate() {
             let group = first + number;
-            let list = &partners[starts[group] as usize..starts[group + 1] as usize];
+            let list = &lists[group];
+            if list.is_empty() {
+                continue;
+            }
+            let list = &partners[list.start as usize..list.end as usize];
             let mut lane = 0;
             while lane < MOST {
                 let here = gather(simd, places, |k| group * MOST + lane + k);

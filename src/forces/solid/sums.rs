@@ -1,18 +1,25 @@
 //! One computation of the forces of a solid: what tiles, lists and ranks do after each other.
 
+use std::collections::BTreeSet;
+use std::ops::Range;
 use std::time::Instant;
 
 use rayon::prelude::*;
 
 use super::drift::{Lengths, Moments};
+use super::exposed::{self, Exposed};
 use super::measure::PARTS;
-use super::pairs::Pairs;
+use super::pairs::{self, Pairs};
 use super::points::Points;
-use super::sweep::{Field, Sweep};
+use super::strained::{self, Strained};
+use super::sweep::{self, Field, Sweep, Tile};
 use super::{ForceError, Forces, Measure, Planes};
 use crate::domain::{Call, Halo};
 use crate::lanes::MOST;
 use crate::potential::{CutPotential, PairShape, with_law};
+
+/// Runs of interfaces in one parallel task.
+const RUNS_IN_A_TASK: usize = 256;
 
 impl Forces {
     /// Forces on all nodes of this rank, eV/nm. Brings the positions that they depend on from other ranks.
@@ -40,7 +47,7 @@ impl Forces {
         measure: &mut Measure,
     ) -> Result<(), ForceError> {
         self.exchange(position);
-        let mut irregular = self.sum_tiles::<S, MEASURED>(law, position, force, measure);
+        let mut irregular = self.sum_tiles::<S, MEASURED>(&self.tiles, law, position, force, measure);
         loop {
             let is_current = self.pairs.as_mut().is_some_and(|pairs| pairs.follow(position));
             if !irregular.is_empty() {
@@ -52,9 +59,9 @@ impl Forces {
             if self.domain.hears(Call::InterfaceChanged) {
                 let lost = self.domain.ranks().join(irregular);
                 self.open(&lost);
-                irregular = self.sum_tiles::<S, MEASURED>(law, position, force, measure);
+                irregular = self.sum_again::<S, MEASURED>(&lost, law, position, force, measure);
             } else if self.domain.hears(Call::ListOutdated) {
-                if !self.have_only_drifted() {
+                if !self.have_only_drifted(position) {
                     self.search(position)?;
                 }
             } else {
@@ -82,9 +89,30 @@ impl Forces {
         self.exchange_time += start.elapsed();
     }
 
-    /// Sums of all parts of this rank; returns their interfaces that are no longer regular, ascending.
+    /// Sums again what the loss of some interfaces has left unfinished: those of the groups of parts beside them.
+    fn sum_again<S: PairShape, const MEASURED: bool>(
+        &self,
+        lost: &[u32],
+        law: &CutPotential<S>,
+        position: &Planes,
+        force: &mut Planes,
+        measure: &mut Measure,
+    ) -> Vec<u32> {
+        let parts = lost
+            .iter()
+            .flat_map(|&number| self.beside(number))
+            .map(|part| part as usize);
+        let own = parts.filter(|&part| self.domain.is_mine(part));
+        let groups: BTreeSet<usize> = own.map(|part| self.mesh.group_number(part)).collect();
+        let tile = |group| sweep::tile(&self.mesh, &self.interfaces, group..group + 1);
+        let tiles: Vec<Tile> = groups.into_iter().map(tile).collect();
+        self.sum_tiles::<S, MEASURED>(&tiles, law, position, force, measure)
+    }
+
+    /// Sums of the parts of some tiles, which ascend; returns their interfaces that are no longer regular, ascending.
     fn sum_tiles<S: PairShape, const MEASURED: bool>(
         &self,
+        tiles: &[Tile],
         law: &CutPotential<S>,
         position: &Planes,
         force: &mut Planes,
@@ -98,16 +126,19 @@ impl Forces {
             intact: &self.intact,
             position,
         };
-        let [nodes, _] = self.domain.nodes();
-        let [elements, _] = self.domain.elements();
-        let mut rest = force.each_mut().map(|plane| &mut plane[nodes.clone()]);
-        let mut held = measure.planes_mut().map(|plane| match MEASURED {
-            true => &mut plane[elements.clone()],
-            false => &mut plane[..],
-        });
-        let mut tasks = Vec::with_capacity(self.tiles.len());
-        for tile in &self.tiles {
-            let force = rest.each_mut().map(|plane| split_off(plane, tile.nodes.len()));
+        let mut force = force.each_mut().map(|plane| &mut plane[..]);
+        let mut held = measure.planes_mut().map(|plane| &mut plane[..]);
+        let mut at = [0, 0];
+        let mut tasks = Vec::with_capacity(tiles.len());
+        for tile in tiles {
+            for plane in &mut force {
+                split_off(plane, tile.nodes.start - at[0]);
+            }
+            for plane in &mut held {
+                split_off(plane, tile.elements.start - at[1]);
+            }
+            at = [tile.nodes.end, tile.elements.end];
+            let force = force.each_mut().map(|plane| split_off(plane, tile.nodes.len()));
             let held = held.each_mut().map(|plane| split_off(plane, tile.elements.len()));
             tasks.push(Sweep::<S, MEASURED> {
                 field: &field,
@@ -124,13 +155,13 @@ impl Forces {
     }
 
     /// Whether all points have moved so evenly that the lists of all ranks are good; all ranks ask together.
-    fn have_only_drifted(&mut self) -> bool {
+    fn have_only_drifted(&mut self, position: &Planes) -> bool {
         let Some(pairs) = &mut self.pairs else {
             return false;
         };
-        let numbers = self.domain.ranks().merge(&pairs.motion().numbers());
+        let numbers = self.domain.ranks().merge(&pairs.motion(position).numbers());
         pairs.drift_with(Moments::from_numbers(&numbers).drift());
-        if !pairs.is_current() {
+        if !pairs.is_current(position) {
             self.domain.call(Call::ListOutdated);
         }
         self.agree();
@@ -148,14 +179,28 @@ impl Forces {
             let element = self.mesh.element_of_node(node);
             return Err(ForceError::FlewAway { element });
         }
-        let points = Points::new(&self.mesh, &self.interfaces, &self.intact, position);
-        let are_joined = |one: u32, other: u32| {
-            let numbers = self.interfaces.of(one as usize).iter();
-            let mut joining = numbers.filter(|&&number| self.intact[number as usize] > 0.0);
-            joining.any(|&number| self.interfaces.pairs[number as usize].contains(&other))
-        };
         let lengths = Lengths::new(self.material.interaction.cutoff(), self.material.spacing);
-        let pairs = Pairs::search(points, self.domain.elements(), are_joined, position, lengths);
+        let ready = self.strained(position);
+        let mut is_firm: Vec<bool> = self.intact.iter().map(|&intact| intact > 0.0).collect();
+        ready.iter().for_each(|&number| is_firm[number as usize] = false);
+        let exposed = Exposed::new(&exposed::Scene {
+            mesh: &self.mesh,
+            interfaces: &self.interfaces,
+            position,
+            is_firm: &is_firm,
+            radius: lengths.radius,
+        });
+        let pairs = Pairs::search(
+            pairs::Scene {
+                points: Points::new(&self.mesh, &exposed.sites),
+                watched: self.watched(&exposed.parts),
+                ready,
+                elements: self.domain.elements(),
+                position,
+                lengths,
+            },
+            |part, joined| self.joined(part, joined),
+        );
         let mut needed: Vec<u32> = self.bordering.iter().copied().chain(pairs.needed()).collect();
         needed.sort_unstable();
         needed.dedup();
@@ -168,6 +213,38 @@ impl Forces {
         Ok(())
     }
 
+    /// Intact interfaces that may open before the next search, ascending.
+    fn strained(&self, position: &Planes) -> Vec<u32> {
+        let longer = strained::LONG * self.material.spacing;
+        let nearer = strained::NEAR * self.material.interaction.cutoff();
+        let runs = self.interfaces.runs.par_chunks(RUNS_IN_A_TASK);
+        let found = runs.flat_map_iter(|runs| {
+            self.arch.dispatch(Strained {
+                mesh: &self.mesh,
+                runs,
+                intact: &self.intact,
+                position,
+                longer: longer * longer,
+                nearer: nearer * nearer,
+            })
+        });
+        let mut strained: Vec<u32> = found.collect();
+        strained.sort_unstable();
+        strained
+    }
+
+    /// Own nodes of these parts, and of all own atoms.
+    fn watched(&self, parts: &[u32]) -> Vec<Range<usize>> {
+        let own = parts
+            .iter()
+            .map(|&part| part as usize)
+            .filter(|&part| self.domain.is_mine(part));
+        let mut nodes: Vec<usize> = own.flat_map(|part| self.mesh.nodes_of(part)).collect();
+        nodes.sort_unstable();
+        let [_, atoms] = self.domain.nodes();
+        pairs::ranges(nodes.into_iter().chain(atoms))
+    }
+
     /// Brings forces on points to the nodes that carry them, and what pairs hold to their elements.
     fn add_pairs<const MEASURED: bool>(&self, force: &mut Planes, measure: &mut Measure) {
         let Some(pairs) = &self.pairs else {
@@ -177,6 +254,10 @@ impl Forces {
         let [of_parts, atoms] = pairs.mine();
         for point in of_parts.clone() {
             let [x, y, z] = pairs.force[point / MOST].map(|plane| plane[point % MOST]);
+            // Whatever has no partner within the cutoff leaves no trace, not even the sign of a zero.
+            if [x, y, z] == [0.0; 3] {
+                continue;
+            }
             for &(node, weight) in points.carriers(point) {
                 let node = node as usize;
                 force[0][node] = x.mul_add(weight, force[0][node]);

@@ -53,7 +53,8 @@ pub fn tiles(mesh: &Solid, interfaces: &Interfaces, parts: Range<usize>, count: 
     tiles
 }
 
-fn tile(mesh: &Solid, interfaces: &Interfaces, groups: Range<usize>) -> Tile {
+/// Some consecutive groups.
+pub fn tile(mesh: &Solid, interfaces: &Interfaces, groups: Range<usize>) -> Tile {
     let of_groups = &mesh.groups()[groups.clone()];
     let elements = of_groups[0].elements.start..of_groups[of_groups.len() - 1].elements.end;
     let nodes = of_groups[0].nodes().start..of_groups[of_groups.len() - 1].nodes().end;
@@ -118,7 +119,7 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
             let held = match group.shape {
                 Shape::Octahedron => {
                     let nodes = [0, 1, 2, 3, 4, 5];
-                    let places = self.places(simd, group, element, nodes, count);
+                    let places = places(simd, self.field.position, group, element, nodes, count);
                     let (forces, held) =
                         inside::sum_octahedron::<S, L, MEASURED>(simd, &self.field.law, classes, places);
                     self.put(group, element, nodes, forces, count);
@@ -126,7 +127,7 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                 }
                 _ => {
                     let nodes = [0, 1, 2, 3];
-                    let places = self.places(simd, group, element, nodes, count);
+                    let places = places(simd, self.field.position, group, element, nodes, count);
                     let (forces, held) =
                         inside::sum_tetrahedron::<S, L, MEASURED>(simd, &self.field.law, classes, places);
                     self.put(group, element, nodes, forces, count);
@@ -136,24 +137,6 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
             held.store(&mut self.held, element.wrapping_sub(self.tile.elements.start), count);
             at += count;
         }
-    }
-
-    /// Places of the same corners of parts side by side.
-    #[inline(always)]
-    fn places<L: Simd, const N: usize>(
-        &self,
-        simd: L,
-        group: &Group,
-        element: usize,
-        corners: [u8; N],
-        count: usize,
-    ) -> [Vector<L>; N] {
-        let planes = self.field.position.each_ref().map(Vec::as_slice);
-        let mut places = [Vector::zero(simd); N];
-        for (place, corner) in places.iter_mut().zip(corners) {
-            *place = Vector::load(simd, planes, group.node(element, usize::from(corner)), count);
-        }
-        places
     }
 
     #[inline(always)]
@@ -211,8 +194,8 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                     tetrahedron,
                     octahedron,
                 } => {
-                    let first = self.places(simd, groups[0], parts[0], tetrahedron, count);
-                    let second = self.places(simd, groups[1], parts[1], octahedron, count);
+                    let first = places(simd, self.field.position, groups[0], parts[0], tetrahedron, count);
+                    let second = places(simd, self.field.position, groups[1], parts[1], octahedron, count);
                     let face = Face::new(size, first, second);
                     let [longer, touched] = face.exceeds(simd, limits);
                     let lost = longer.or(face.second_neighbours_below(simd, limit)).and(intact);
@@ -233,8 +216,8 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                     self.hold(simd, held, intact, parts, *is_mine, count);
                 }
                 Contact::Edges { first, second } => {
-                    let first_ends = self.places(simd, groups[0], parts[0], first, count);
-                    let second_ends = self.places(simd, groups[1], parts[1], second, count);
+                    let first_ends = places(simd, self.field.position, groups[0], parts[0], first, count);
+                    let second_ends = places(simd, self.field.position, groups[1], parts[1], second, count);
                     let edges = Edges::new(size, first_ends, second_ends);
                     let [longer, _] = edges.exceeds(simd, limits);
                     let lost = longer.or(edges.second_neighbours_below(simd, limit)).and(intact);
@@ -258,8 +241,8 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                     self.hold(simd, held, intact, parts, *is_mine, count);
                 }
                 Contact::FarEdges { first, second } => {
-                    let first = self.places(simd, groups[0], parts[0], first, count);
-                    let second = self.places(simd, groups[1], parts[1], second, count);
+                    let first = places(simd, self.field.position, groups[0], parts[0], first, count);
+                    let second = places(simd, self.field.position, groups[1], parts[1], second, count);
                     let ends = [first[0] - second[0], first[1] - second[1]];
                     let lost = string_below(simd, ends, limit).and(intact);
                     if lost.any() {
@@ -267,8 +250,8 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                     }
                 }
                 Contact::Tips { first, second } => {
-                    let [first] = self.places(simd, groups[0], parts[0], [first], count);
-                    let [second] = self.places(simd, groups[1], parts[1], [second], count);
+                    let [first] = places(simd, self.field.position, groups[0], parts[0], [first], count);
+                    let [second] = places(simd, self.field.position, groups[1], parts[1], [second], count);
                     let lost = (first - second).squared().is_below(limit).and(intact);
                     if lost.any() {
                         tell(lost, number, count, irregular);
@@ -296,6 +279,24 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
             }
         }
     }
+}
+
+/// Places of the same corners of parts side by side.
+#[inline(always)]
+pub fn places<L: Simd, const N: usize>(
+    simd: L,
+    position: &[Vec<f64>; 3],
+    group: &Group,
+    element: usize,
+    corners: [u8; N],
+    count: usize,
+) -> [Vector<L>; N] {
+    let planes = position.each_ref().map(Vec::as_slice);
+    let mut places = [Vector::zero(simd); N];
+    for (place, corner) in places.iter_mut().zip(corners) {
+        *place = Vector::load(simd, planes, group.node(element, usize::from(corner)), count);
+    }
+    places
 }
 
 /// Notes which of so many interfaces from a number on are lost.

@@ -1,5 +1,6 @@
 mod constants;
 mod dispersion;
+mod searches;
 
 use super::*;
 use crate::mesh::solid::Plan;
