@@ -10,6 +10,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use crate::mesh::Mesh;
+use crate::mesh::grouped::{Answer, MassCoupling};
 use crate::state::{Inertia, Leap, State, Strip};
 use moving::{Mobility, Moving, Nodes};
 
@@ -34,7 +35,8 @@ pub fn leap(kicks: u32, time: f64) -> Leap {
 /// Advances the velocities of ranges of nodes by the forces over a time.
 ///
 /// Coupled masses are a block m ((1 - 3 c) I + c 1 1^T) a triangle, and its inverse takes c times the sum of the three
-/// forces off each before it divides by m (1 - 3 c).
+/// forces off each before it divides by m (1 - 3 c). A tetrahedron has four, and in an octahedron the force on the opposite
+/// node counts beside: [`Answer`].
 pub fn kick<const D: usize>(state: &mut State<D>, nodes: &[Range<usize>], time: f64) {
     let kick = Leap {
         kicks: 1,
@@ -138,7 +140,7 @@ impl Ahead<'_> {
                     position: Some(&position[axis][part]),
                     next,
                 };
-                dispatch_to([atoms], self.leap, true, 0.0);
+                dispatch_to([atoms], self.leap, true, Answer::LUMPED);
             });
         }
     }
@@ -155,18 +157,20 @@ fn advance<const D: usize>(state: &mut State<D>, nodes: &Range<usize>, leap: Lea
         ..
     } = state;
     let coupled = coupled.iter().filter(|coupled| nodes.contains(&coupled.nodes.start));
-    let parts: Vec<(Range<usize>, f64)> = match coupled.clone().next() {
+    let parts: Vec<(Range<usize>, Option<MassCoupling>)> = match coupled.clone().next() {
         None => {
             let starts = nodes.clone().step_by(CHUNK);
-            starts.map(|from| (from..nodes.end.min(from + CHUNK), 0.0)).collect()
+            starts.map(|from| (from..nodes.end.min(from + CHUNK), None)).collect()
         }
-        Some(_) => coupled.map(|coupled| (coupled.nodes.clone(), coupled.share)).collect(),
+        Some(_) => coupled
+            .map(|coupled| (coupled.nodes.clone(), Some(coupled.coupling)))
+            .collect(),
     };
     // All axes at once, so that threads wait for each other only once.
     let mut tasks = Vec::with_capacity(D * parts.len());
     for (axis, (position, velocity)) in position.iter_mut().zip(velocity).enumerate() {
         let [mut position, mut velocity] = [position, velocity].map(|plane| &mut plane[nodes.clone()]);
-        for (part, share) in &parts {
+        for (part, coupling) in &parts {
             let [next, velocity] = [&mut position, &mut velocity].map(|plane| {
                 let own = plane.split_off_mut(..part.len());
                 own.expect("parts lie one after the other")
@@ -179,30 +183,42 @@ fn advance<const D: usize>(state: &mut State<D>, nodes: &Range<usize>, leap: Lea
                 position: None,
                 next,
             };
-            tasks.push((nodes, *share));
+            tasks.push((nodes, *coupling));
         }
     }
-    tasks.into_par_iter().for_each(|(nodes, share)| match share > 0.0 {
-        true => dispatch(nodes.corners(), leap, drifts, share),
-        false => dispatch_to([nodes], leap, drifts, 0.0),
+    tasks.into_par_iter().for_each(|(nodes, coupling)| {
+        let Some(coupling) = coupling else {
+            return dispatch_to([nodes], leap, drifts, Answer::LUMPED);
+        };
+        let answer = coupling.answer();
+        match coupling.corners {
+            3 => dispatch(nodes.corners(), leap, drifts, coupling.share),
+            4 => dispatch_to::<4>(nodes.corners(), leap, drifts, answer),
+            6 => dispatch_to::<6>(nodes.corners(), leap, drifts, answer),
+            corners => unreachable!("no element has {corners} corners"),
+        }
     });
 }
 
 /// Moves the corners of triangles.
 fn dispatch(corners: [Nodes; 3], leap: Leap, drifts: bool, share: f64) {
+    let answer = Answer {
+        of_sum: share,
+        ..Answer::LUMPED
+    };
     match share > 0.0 {
-        true => dispatch_to(corners, leap, drifts, share),
+        true => dispatch_to(corners, leap, drifts, answer),
         false => corners
             .into_iter()
-            .for_each(|nodes| dispatch_to([nodes], leap, drifts, 0.0)),
+            .for_each(|nodes| dispatch_to([nodes], leap, drifts, answer)),
     }
 }
 
-/// Nodes whose masses are coupled if there are three of them.
-fn dispatch_to<const N: usize>(corners: [Nodes; N], leap: Leap, drifts: bool, share: f64) {
+/// Nodes whose masses are coupled if there are several of them.
+fn dispatch_to<const N: usize>(corners: [Nodes; N], leap: Leap, drifts: bool, answer: Answer) {
     Arch::new().dispatch(Moving {
         corners,
-        share,
+        answer,
         leap,
         drifts,
     });

@@ -1,5 +1,6 @@
 //! What acts on a specimen from outside, and the work it does.
 
+mod act;
 mod ball;
 mod carried;
 mod hold;
@@ -12,6 +13,7 @@ mod stretching;
 mod together;
 mod work;
 
+pub use act::Act;
 pub use ball::Ball;
 pub use carried::{Carried, mean};
 pub use hold::Hold;
@@ -65,6 +67,9 @@ pub trait Action<const D: usize>: Load<D> + Send + Sync {
     /// The force with which it acts on the specimen, eV/nm, in a state whose forces have just been computed. All ranks must ask
     /// for it together.
     fn pull(&self, state: &State<D>, ranks: Ranks) -> [f64; D];
+
+    /// What it does, for those that must tell another program.
+    fn act(&self) -> Act<D>;
 
     /// Keeps to the nodes that a rank moves, those in these ranges.
     fn keep_to(&mut self, nodes: &[Range<usize>]);

@@ -20,7 +20,7 @@ use std::ops::Range;
 use crate::lattice::triangular;
 use cut::{Crack, Cut};
 use element::Element;
-use grouped::Grouped;
+use grouped::{Grouped, MassCoupling};
 use groups::Groups;
 use owners::Owners;
 use region::Region;
@@ -162,17 +162,6 @@ impl Mesh {
         masses
     }
 
-    /// For each group of triangles what the consistent mass matrix couples two nodes of one by, over the lumped mass of one.
-    pub fn mass_couplings(&self) -> Vec<f64> {
-        let mut of_size: HashMap<i32, f64> = HashMap::new();
-        let groups = self.groups.all().iter();
-        let couplings = groups.map(|group| {
-            let element = &self.elements[group.elements.start];
-            *of_size.entry(group.size).or_insert_with(|| element.mass_coupling())
-        });
-        couplings.collect()
-    }
-
     pub fn owner_of(&self, site: [i32; 2]) -> Option<usize> {
         self.sites.index(site).map(|number| self.owners.of(site[1], number))
     }
@@ -261,6 +250,20 @@ impl Grouped for Mesh {
     fn group(&self, number: usize) -> [Range<usize>; 2] {
         let group = &self.groups.all()[number];
         [group.elements.clone(), group.nodes()]
+    }
+
+    fn mass_couplings(&self) -> Vec<MassCoupling> {
+        let mut of_size: HashMap<i32, f64> = HashMap::new();
+        let groups = self.groups.all().iter();
+        let couplings = groups.map(|group| {
+            let element = &self.elements[group.elements.start];
+            MassCoupling {
+                corners: 3,
+                share: *of_size.entry(group.size).or_insert_with(|| element.mass_coupling()),
+                opposite: 0.0,
+            }
+        });
+        couplings.collect()
     }
 }
 

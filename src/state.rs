@@ -8,6 +8,7 @@ use std::ops::Range;
 
 use crate::lanes;
 use crate::mesh::Mesh;
+use crate::mesh::grouped::{Grouped, MassCoupling};
 
 pub use leap::Leap;
 pub use strip::Strip;
@@ -20,36 +21,38 @@ pub struct State<const D: usize = 2> {
     pub force: [Vec<f64>; D],
     /// Lumped mass, the sum of a row of the mass matrix, eV ps^2/nm^2.
     pub mass: Vec<f64>,
-    /// The triangles whose masses are coupled, ascending; empty where all masses are lumped.
+    /// The elements whose masses are coupled, ascending; empty where all masses are lumped.
     pub coupled: Vec<Coupled>,
     /// What a force is multiplied by to give the acceleration: the inverse of the mass, and zero where the motion is
-    /// prescribed. With coupled masses the mean force of the triangle acts apart: see [`crate::integrator::kick`].
+    /// prescribed. With coupled masses the mean force of the element acts apart: see [`crate::integrator::kick`].
     pub mobility: [Vec<f64>; D],
 }
 
-/// Triangles side by side whose mass matrix is not lumped: the block of each is mass ((1 - 3 c) I + c 1 1^T), c the share.
+/// Elements side by side whose masses are coupled alike.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Coupled {
-    /// Nodes of all of them: first corners, second corners, third corners.
+    /// Nodes of all of them: first corners, second corners, and so on.
     pub nodes: Range<usize>,
-    /// The mass that couples two nodes over the lumped mass of one.
-    pub share: f64,
+    pub coupling: MassCoupling,
 }
 
 impl Coupled {
-    /// How many triangles there are.
+    /// How many elements there are.
     pub fn len(&self) -> usize {
-        self.nodes.len() / 3
+        self.nodes.len() / self.coupling.corners
     }
 
     pub fn is_empty(&self) -> bool {
         self.nodes.is_empty()
     }
 
-    /// The three nodes of the triangle that has this one.
-    fn beside(&self, node: usize) -> [usize; 3] {
-        let first = self.nodes.start + (node - self.nodes.start) % self.len();
-        [0, 1, 2].map(|corner| first + corner * self.len())
+    /// The nodes of the element that has this one, and the one opposite to it in the order of the nodes.
+    fn beside(&self, node: usize) -> (impl Iterator<Item = usize> + use<>, usize) {
+        let count = self.len();
+        let [corner, place] = [(node - self.nodes.start) / count, (node - self.nodes.start) % count];
+        let first = self.nodes.start + place;
+        let all = (0..self.coupling.corners).map(move |corner| first + corner * count);
+        (all, first + (corner ^ 1) * count)
     }
 }
 
@@ -69,9 +72,27 @@ impl<const D: usize> State<D> {
         }
     }
 
-    /// The mass that couples a node to another of its triangle, over the lumped mass of one; zero where it is lumped.
+    /// Gives the elements of a mesh this share of the consistent mass matrix; the rest of it stays lumped. All nodes become
+    /// free.
+    pub fn couple_masses(&mut self, mesh: &impl Grouped, consistent: f64) {
+        let groups = mesh.mass_couplings().into_iter().enumerate();
+        let coupled = groups.map(|(number, coupling)| Coupled {
+            nodes: mesh.group(number)[1].clone(),
+            coupling: coupling.times(consistent),
+        });
+        self.coupled = coupled.collect();
+        for Coupled { nodes, coupling } in &self.coupled {
+            let answer = coupling.answer();
+            for node in nodes.clone() {
+                let mobility = 1.0 / (self.mass[node] * answer.mass);
+                self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
+            }
+        }
+    }
+
+    /// The mass that couples a node to another of its element, over the lumped mass of one; zero where it is lumped.
     pub fn coupling_of(&self, node: usize) -> f64 {
-        coupled_at(&self.coupled, node).map_or(0.0, |coupled| coupled.share)
+        coupled_at(&self.coupled, node).map_or(0.0, |coupled| coupled.coupling.share)
     }
 
     pub fn nodes(&self) -> usize {
@@ -89,15 +110,25 @@ impl<const D: usize> State<D> {
         energy
     }
 
-    /// The part of a node: with coupled masses c m (sum v)^2, which the nodes of a triangle share, is c m v (sum v) of each.
+    /// The part of a node: with coupled masses each of an element has its velocity times its share of the momentum.
     #[inline(always)]
     pub fn kinetic_energy_of(&self, node: usize) -> f64 {
         let squared = match coupled_at(&self.coupled, node) {
             None => self.velocity.each_ref().map(|plane| plane[node] * plane[node]),
             Some(coupled) => self.velocity.each_ref().map(|plane| {
+                let MassCoupling {
+                    corners,
+                    share,
+                    opposite,
+                } = coupled.coupling;
                 let speed = plane[node];
-                let sum: f64 = coupled.beside(node).into_iter().map(|node| plane[node]).sum();
-                speed * (speed + coupled.share * (sum - 3.0 * speed))
+                let (beside, other) = coupled.beside(node);
+                let sum: f64 = beside.map(|node| plane[node]).sum();
+                let mut momentum = speed + share * (sum - corners as f64 * speed);
+                if opposite != 0.0 {
+                    momentum += opposite * (plane[other] - speed);
+                }
+                speed * momentum
             }),
         };
         0.5 * self.mass[node] * squared.into_iter().sum::<f64>()
@@ -105,23 +136,6 @@ impl<const D: usize> State<D> {
 }
 
 impl State {
-    /// Gives the triangles of a mesh this share of the consistent mass matrix; the rest of it stays lumped. All nodes
-    /// become free.
-    pub fn couple_masses(&mut self, mesh: &Mesh, consistent: f64) {
-        let groups = mesh.groups.all().iter().zip(mesh.mass_couplings());
-        let coupled = groups.map(|(group, coupling)| Coupled {
-            nodes: group.nodes(),
-            share: consistent * coupling,
-        });
-        self.coupled = coupled.collect();
-        for Coupled { nodes, share } in &self.coupled {
-            for node in nodes.clone() {
-                let mobility = 1.0 / (self.mass[node] * (1.0 - 3.0 * share));
-                self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
-            }
-        }
-    }
-
     /// How the nodes of each group of a mesh answer to forces.
     pub fn inertias(&self, mesh: &Mesh) -> Vec<Inertia> {
         let of_group = |nodes: Range<usize>| {
@@ -149,7 +163,7 @@ pub struct Inertia {
     pub share: f64,
 }
 
-/// Of some triangles with coupled masses, ascending, those that a node belongs to.
+/// Of some elements with coupled masses, ascending, those that a node belongs to.
 fn coupled_at(coupled: &[Coupled], node: usize) -> Option<&Coupled> {
     let after = coupled.partition_point(|coupled| coupled.nodes.start <= node);
     let coupled = coupled.get(after.checked_sub(1)?)?;

@@ -10,12 +10,14 @@ use serde_json::json;
 use super::CliError;
 use super::survey::{self, Common};
 use super::terminal::Terminal;
-use crate::export::lammps::{Model, Motion};
+use crate::domain::Ranks;
+use crate::export::lammps::{Crystal, ExportError, Model, Motion, SolidModel, Times};
 use crate::loading::Grip;
 use crate::plan::{Plan, PlannedCase};
 use crate::setup::{self, SetupError};
-use crate::solver::{Solver, Until};
-use crate::study::case;
+use crate::solver::{Body as _, Solver, Until};
+use crate::state::State;
+use crate::study::case::{self, Body};
 
 #[derive(Debug, Subcommand)]
 pub enum Command {
@@ -42,54 +44,111 @@ pub fn lammps(arguments: &Arguments) -> Result<u8, CliError> {
     let plan = survey::read(&arguments.common.study)?;
     let planned = survey::named(&plan, &arguments.case)?;
     let refused = |why: SetupError| plan.refuse([(planned.name.as_str(), why.refusal())]);
+    let no_equal = |error: ExportError| CliError::Input(format!("case `{}`: {error}", planned.name));
     let case = &planned.case;
-    let slab = case.slab().ok_or_else(|| {
-        CliError::Input(format!(
-            "case `{}` is a solid, and the input of LAMMPS is written for slabs; export a case of the triangular lattice",
-            planned.name
-        ))
-    })?;
-    let material = setup::slab::material(slab).map_err(refused)?;
-    let solver = setup::slab::solver(case, slab).map_err(refused)?;
-    let model = Model::new(case, slab, &material, solver.mesh())
-        .map_err(|error| CliError::Input(format!("case `{}`: {error}", planned.name)))?;
-
-    let [script_file, data_file] = ["in", "data"].map(|kind| format!("{kind}.{}", planned.name));
-    let [script_path, data_path] = [&script_file, &data_file].map(|file| arguments.into.join(file));
-    let script = model.script(
-        &head(&plan, planned, slab, &script_file),
-        &planned.name,
-        &motion(case, slab, &solver),
-    );
-    let title = format!(
-        "LAMMPS data of case `{}` of study `{}`, for {script_file}",
-        planned.name, plan.study
-    );
-    fs::create_dir_all(&arguments.into).map_err(|source| CliError::Output {
-        what: arguments.into.display().to_string(),
-        source,
-    })?;
-    write(&script_path, |out| out.write_all(script.as_bytes()))?;
-    write(&data_path, |out| model.write_data(&title, solver.state(), out))?;
-
-    let json = json!({
-        "study": plan.study, "case": planned.name, "script": script_path, "data": data_path,
-        "atoms": solver.state().nodes(),
-    });
-    let terminal = Terminal {
-        quiet: false,
-        json: arguments.common.json,
+    let input = Input {
+        arguments,
+        plan: &plan,
+        planned,
     };
-    terminal.result(&json, || {
-        let folder = arguments.into.display();
-        format!(
-            "wrote {} and {}: {} atoms\nrun it: cd {folder} && lmp -in {script_file}\n",
-            script_path.display(),
-            data_path.display(),
-            solver.state().nodes()
-        )
-    })?;
-    Ok(0)
+    match &case.body {
+        Body::Slab(slab) => {
+            let material = setup::slab::material(slab).map_err(refused)?;
+            let solver = setup::slab::solver(case, slab).map_err(refused)?;
+            let model = Model::new(case, slab, &material, solver.mesh()).map_err(no_equal)?;
+            let motion = motion(case, slab, &solver);
+            let script = |head: &[String]| model.script(head, &planned.name, &motion);
+            input.write(&model.crystal, slab_remarks(case, slab), script, solver.state())
+        }
+        Body::Solid(solid) => {
+            let material = setup::solid::material(solid).map_err(refused)?;
+            let solver = setup::solid::solver(case, solid, Ranks::alone()).map_err(refused)?;
+            let body = solver.body();
+            let size = (solver.state().nodes(), body.setting().volume);
+            let model = SolidModel::new(case, solid, &material, size, body.load().acts()).map_err(no_equal)?;
+            let times = times(case, setup::solid::strain_rate(solid), solver.time_step()[0]);
+            let script = |head: &[String]| model.script(head, &planned.name, &times);
+            input.write(&model.crystal, Vec::new(), script, solver.state())
+        }
+    }
+}
+
+/// What becomes a script and a data file.
+struct Input<'a> {
+    arguments: &'a Arguments,
+    plan: &'a Plan,
+    planned: &'a PlannedCase,
+}
+
+impl Input<'_> {
+    /// Writes both. `remarks` are paragraphs of the head of the script.
+    fn write<const D: usize>(
+        &self,
+        crystal: &Crystal,
+        remarks: Vec<&str>,
+        script: impl Fn(&[String]) -> String,
+        state: &State<D>,
+    ) -> Result<u8, CliError> {
+        let Self {
+            arguments,
+            plan,
+            planned,
+        } = self;
+        let [script_file, data_file] = ["in", "data"].map(|kind| format!("{kind}.{}", planned.name));
+        let [script_path, data_path] = [&script_file, &data_file].map(|file| arguments.into.join(file));
+        let script = script(&self.head(&script_file, remarks));
+        let title = format!(
+            "LAMMPS data of case `{}` of study `{}`, for {script_file}",
+            planned.name, plan.study
+        );
+        fs::create_dir_all(&arguments.into).map_err(|source| CliError::Output {
+            what: arguments.into.display().to_string(),
+            source,
+        })?;
+        write(&script_path, |out| out.write_all(script.as_bytes()))?;
+        write(&data_path, |out| crystal.write_data(&title, state, out))?;
+
+        let json = json!({
+            "study": plan.study, "case": planned.name, "script": script_path, "data": data_path,
+            "atoms": state.nodes(),
+        });
+        let terminal = Terminal {
+            quiet: false,
+            json: arguments.common.json,
+        };
+        terminal.result(&json, || {
+            let folder = arguments.into.display();
+            format!(
+                "wrote {} and {}: {} atoms\nrun it: cd {folder} && lmp -in {script_file}\n",
+                script_path.display(),
+                data_path.display(),
+                state.nodes()
+            )
+        })?;
+        Ok(0)
+    }
+
+    /// What the script is, and where its run differs from that of cgaft.
+    fn head(&self, script_file: &str, remarks: Vec<&str>) -> Vec<String> {
+        let Self { plan, planned, .. } = self;
+        let mut head = vec![
+            format!(
+                "LAMMPS input of an all-atom case of a study, written by cgaft {}",
+                env!("CARGO_PKG_VERSION")
+            ),
+            String::new(),
+            format!("study   {} ({})", plan.study, plan.file()),
+            format!("case    {} ({})", planned.name, planned.id),
+            format!("run     lmp -in {script_file}"),
+        ];
+        let of_step = "The time step is the one cgaft starts with; cgaft shortens it should the specimen stiffen.";
+        let is_auto = matches!(planned.case.run.time_step, case::TimeStep::Auto { .. });
+        for remark in is_auto.then_some(of_step).into_iter().chain(remarks) {
+            head.push(String::new());
+            head.extend(remark.lines().map(str::to_owned));
+        }
+        head
+    }
 }
 
 /// Writes a new file; what a person may have edited is never overwritten.
@@ -111,72 +170,67 @@ fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<(
     })
 }
 
-/// What the script is, and where its run differs from that of cgaft.
-fn head(plan: &Plan, planned: &PlannedCase, slab: &case::Slab, script_file: &str) -> Vec<String> {
-    let until = &planned.case.run.until;
-    let mut head = vec![
-        format!(
-            "LAMMPS input of an all-atom case of a study, written by cgaft {}",
-            env!("CARGO_PKG_VERSION")
-        ),
-        String::new(),
-        format!("study   {} ({})", plan.study, plan.file()),
-        format!("case    {} ({})", planned.name, planned.id),
-        format!("run     lmp -in {script_file}"),
-    ];
-    if let case::TimeStep::Auto { .. } = planned.case.run.time_step {
-        head.push(String::new());
-        head.push(
-            "The time step is the one cgaft starts with; cgaft shortens it should the specimen stiffen.".to_owned(),
-        );
-    }
+/// Where the run of a slab differs from that of cgaft.
+fn slab_remarks(case: &case::Case, slab: &case::Slab) -> Vec<&'static str> {
+    let until = &case.run.until;
     let case::Loading::StrainRate { sponge, damping, .. } = slab.loading;
-    if sponge.is_some() {
-        head.push(String::new());
-        head.push("The sponge layers of the case are left out: its waves come back from the grips.".to_owned());
-    }
-    if damping.is_some() {
-        head.push(String::new());
-        head.push("The damping of the case is left out: it gets as hot as it gets.".to_owned());
-    }
     let crack_stops = [
         until.crack_length,
         until.arrest,
         until.after_branch,
         until.leaves_the_plane,
     ];
-    if crack_stops.iter().any(Option::is_some) {
-        head.push(String::new());
-        head.push(
-            "The run ends at its strain or time: LAMMPS does not follow the crack, so it does not end at a".to_owned(),
-        );
-        head.push("crack length, at an arrest, after a branch or off its plane, as the case asks cgaft to.".to_owned());
-    }
-    head
+    let remarks = [
+        (
+            sponge.is_some(),
+            "The sponge layers of the case are left out: its waves come back from the grips.",
+        ),
+        (
+            damping.is_some(),
+            "The damping of the case is left out: it gets as hot as it gets.",
+        ),
+        (
+            crack_stops.iter().any(Option::is_some),
+            "The run ends at its strain or time: LAMMPS does not follow the crack, so it does not end at a\n\
+             crack length, at an arrest, after a branch or off its plane, as the case asks cgaft to.",
+        ),
+    ];
+    remarks
+        .into_iter()
+        .filter(|(is_so, _)| *is_so)
+        .map(|(_, remark)| remark)
+        .collect()
 }
 
 fn motion(case: &case::Case, slab: &case::Slab, solver: &Solver) -> Motion {
     let case::Loading::StrainRate { rate, .. } = slab.loading;
-    let [time_step, _] = solver.time_step();
-    let until = Until {
-        strain: case.run.until.strain,
-        time: case.run.until.time,
-        ..Until::default()
-    };
-    let steps = until.steps(0, 0.0, time_step, |strain| strain / rate);
-    let interval = |time: f64| ((time / time_step).round() as u64).clamp(1, steps.max(1));
     Motion {
         rate,
         grip: match slab.specimen.grips {
             case::Grips::Clamped => Grip::Clamped,
             case::Grips::Sliding => Grip::Sliding,
         },
+        times: times(case, Some(rate), solver.time_step()[0]),
+    }
+}
+
+/// Of a case that is strained at a rate, 1/ps, or at none that is known before.
+fn times(case: &case::Case, rate: Option<f64>, time_step: f64) -> Times {
+    let until = Until {
+        strain: case.run.until.strain.filter(|_| rate.is_some()),
+        time: case.run.until.time,
+        ..Until::default()
+    };
+    let time_of = |strain: f64| rate.map_or(f64::INFINITY, |rate| strain / rate);
+    let steps = until.steps(0, 0.0, time_step, time_of);
+    let interval = |time: f64| ((time / time_step).round() as u64).clamp(1, steps.max(1));
+    Times {
         time_step,
         steps,
         probe_every: interval(case.probes.every),
         snapshot_every: match case.snapshots.every {
             None => steps.max(1),
-            Some(case::SnapshotInterval::Strain(strain)) => interval(strain / rate),
+            Some(case::SnapshotInterval::Strain(strain)) => interval(time_of(strain)),
             Some(case::SnapshotInterval::Time(time)) => interval(time),
         },
     }

@@ -5,11 +5,16 @@
 //! rounded. (`units metal` would put LAMMPS' own constants of nature between the two.)
 
 mod atom_types;
-mod data;
+mod crystal;
 mod pair_styles;
 mod script;
+mod solid;
+mod times;
 
+pub use crystal::Crystal;
 pub use script::Motion;
+pub use solid::SolidModel;
+pub use times::Times;
 
 use crate::material::Material;
 use crate::mesh::Mesh;
@@ -37,30 +42,34 @@ pub enum ExportError {
     },
 }
 
-/// What LAMMPS must know of a specimen. Atom k of LAMMPS is node k - 1 of the mesh.
+/// What LAMMPS must know of a slab.
 pub struct Model<'a> {
+    pub crystal: Crystal,
     mesh: &'a Mesh,
-    /// eV ps^2/nm^2
-    site_mass: f64,
-    styles: PairStyles,
-    types: AtomTypes,
 }
 
 impl<'a> Model<'a> {
     pub fn new(case: &Case, slab: &Slab, material: &Material, mesh: &'a Mesh) -> Result<Self, ExportError> {
-        let element = case.element();
-        if element != 1 {
-            return Err(ExportError::NotAtoms { element });
-        }
-        if case.run.relax.is_some() {
-            return Err(ExportError::Relaxed);
-        }
-        Ok(Self {
-            mesh,
+        refuse_what_is_not_there(case)?;
+        let crystal = Crystal {
+            dimension: 2,
+            spacing: material.spacing,
             site_mass: material.site_mass,
             styles: PairStyles::new(&slab.material.atoms.potential, material)?,
             types: AtomTypes::new(mesh, material.interaction.cutoff() / material.spacing),
-        })
+        };
+        Ok(Self { crystal, mesh })
+    }
+}
+
+fn refuse_what_is_not_there(case: &Case) -> Result<(), ExportError> {
+    let element = case.element();
+    if element != 1 {
+        return Err(ExportError::NotAtoms { element });
+    }
+    match case.run.relax {
+        Some(_) => Err(ExportError::Relaxed),
+        None => Ok(()),
     }
 }
 

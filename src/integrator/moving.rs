@@ -5,14 +5,17 @@ use std::ops::Range;
 use pulp::{Simd, WithSimd};
 
 use crate::lanes::Lanes;
+use crate::mesh::grouped::Answer;
 use crate::state::Leap;
 
-/// Nodes along one axis: of single atoms or of triangles with lumped masses, or the `N` = 3 corners of triangles whose
-/// masses are coupled. Arithmetic rounds as that of single numbers does.
+/// Corners of an octahedron, each beside the one opposite.
+const OCTAHEDRON: usize = 6;
+
+/// Nodes along one axis: of single atoms or of elements with lumped masses, or the `N` corners of elements whose masses are
+/// coupled: 3 of triangles, 4 of tetrahedra, 6 of octahedra. Arithmetic rounds as that of single numbers does.
 pub struct Moving<'a, const N: usize> {
     pub corners: [Nodes<'a>; N],
-    /// The mass that couples two corners over the lumped mass of one.
-    pub share: f64,
+    pub answer: Answer,
     pub leap: Leap,
     /// Whether the drift is done, too.
     pub drifts: bool,
@@ -58,11 +61,11 @@ impl Mobility<'_> {
 }
 
 impl<'a> Nodes<'a> {
-    /// Nodes of triangles side by side, corner by corner, that move in place.
-    pub fn corners(self) -> [Self; 3] {
-        let count = self.force.len() / 3;
+    /// Nodes of elements side by side, corner by corner, that move in place.
+    pub fn corners<const N: usize>(self) -> [Self; N] {
+        let count = self.force.len() / N;
         let [mut velocity, mut next] = [self.velocity, self.next].map(|plane| plane.chunks_mut(count));
-        [0, 1, 2].map(|corner| {
+        std::array::from_fn(|corner| {
             let part = corner * count..(corner + 1) * count;
             Self {
                 before: None,
@@ -96,14 +99,19 @@ impl<const N: usize> Moving<'_, N> {
     #[inline(always)]
     fn advance<L: Simd>(&mut self, simd: L, from: usize, count: usize) {
         let mut shared = Lanes::all(simd, 0.0);
-        if N == 3 {
+        if N > 1 {
             for corner in &self.corners {
                 shared = shared + Lanes::load_some(simd, corner.force, from, count);
             }
-            shared = shared * self.share;
+            shared = shared * self.answer.of_sum;
         }
-        for corner in &mut self.corners {
-            let force = Lanes::load_some(simd, corner.force, from, count);
+        for number in 0..N {
+            let mut force = Lanes::load_some(simd, self.corners[number].force, from, count);
+            if N == OCTAHEDRON {
+                let opposite = Lanes::load_some(simd, self.corners[number ^ 1].force, from, count);
+                force = force + opposite * self.answer.of_opposite;
+            }
+            let corner = &mut self.corners[number];
             let mobility = corner.mobility.load(simd, from, count);
             let before = match corner.before {
                 Some(before) => Lanes::load_some(simd, before, from, count),

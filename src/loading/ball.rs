@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::carried::Carried;
 use super::work::Work;
-use super::{Action, Load};
+use super::{Act, Action, Load};
 use crate::domain::Ranks;
 use crate::state::State;
 
@@ -156,6 +156,16 @@ impl<const D: usize> Action<D> for Ball<D> {
             nodes.iter().any(|range| range.contains(&(first as usize)))
         };
         self.mine = elements.filter(is_mine).map(|(element, _)| element).collect();
+    }
+
+    fn act(&self) -> Act<D> {
+        Act::Strike {
+            nodes: self.nodes.clone(),
+            radius: self.radius,
+            stiffness: self.stiffness,
+            centre: self.centre,
+            velocity: self.velocity,
+        }
     }
 
     fn booked(&self) -> &Work {

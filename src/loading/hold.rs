@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::work::Work;
-use super::{Action, Load, pace};
+use super::{Act, Action, Load, pace};
 use crate::domain::Ranks;
 use crate::state::State;
 
@@ -95,6 +95,13 @@ impl<const D: usize> Action<D> for Hold<D> {
 
     fn keep_to(&mut self, nodes: &[Range<usize>]) {
         self.work.keep_to(self.nodes.iter().copied(), nodes);
+    }
+
+    fn act(&self) -> Act<D> {
+        Act::Move {
+            nodes: self.nodes.clone(),
+            velocity: self.velocity,
+        }
     }
 
     fn booked(&self) -> &Work {

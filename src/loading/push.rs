@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::Range;
 
 use super::work::Work;
-use super::{Action, Load};
+use super::{Act, Action, Load};
 use crate::domain::Ranks;
 use crate::state::State;
 
@@ -110,6 +110,14 @@ impl<const D: usize> Action<D> for Push<D> {
 
     fn keep_to(&mut self, nodes: &[Range<usize>]) {
         self.work.keep_to(self.shares.iter().map(|&(node, _)| node), nodes);
+    }
+
+    fn act(&self) -> Act<D> {
+        Act::Push {
+            shares: self.shares.clone(),
+            force: self.force,
+            course: self.course,
+        }
     }
 
     fn booked(&self) -> &Work {

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::{Action, Load};
+use super::{Act, Action, Load};
 use crate::domain::Ranks;
 use crate::state::State;
 
@@ -26,6 +26,11 @@ impl<const D: usize> Together<D> {
 
     pub fn names(&self) -> impl Iterator<Item = &str> {
         self.0.iter().map(|(name, _)| name.as_str())
+    }
+
+    /// What each does, with its name.
+    pub fn acts(&self) -> impl Iterator<Item = (&str, Act<D>)> {
+        self.0.iter().map(|(name, action)| (name.as_str(), action.act()))
     }
 
     /// What each has booked on each of its nodes, one after the other, eV. All ranks must ask for it together.

@@ -2,6 +2,70 @@
 
 use std::ops::Range;
 
+/// The mass matrix of an element with nodes alike, over the lumped mass of one: its rows sum to 1, [Deng2011] Eq. (3-29).
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MassCoupling {
+    /// Nodes of the element.
+    pub corners: usize,
+    /// What couples any two nodes.
+    pub share: f64,
+    /// What couples two opposite nodes beside that; each stands beside its opposite in the order of the nodes. Zero for a
+    /// triangle and a tetrahedron, which have none.
+    pub opposite: f64,
+}
+
+impl MassCoupling {
+    /// With only a share of it, the rest of the masses lumped.
+    pub fn times(self, share: f64) -> Self {
+        Self {
+            share: share * self.share,
+            opposite: share * self.opposite,
+            ..self
+        }
+    }
+
+    /// What the matrix multiplies motions by whose sum is zero: two opposite nodes together, and against each other.
+    fn stretches(self) -> [f64; 2] {
+        let together = 1.0 - self.corners as f64 * self.share;
+        [together, together - 2.0 * self.opposite]
+    }
+
+    /// How forces become accelerations, by the inverse of the matrix.
+    pub fn answer(self) -> Answer {
+        let [together, against] = self.stretches();
+        match self.opposite == 0.0 {
+            true => Answer {
+                mass: together,
+                of_sum: self.share,
+                of_opposite: 0.0,
+            },
+            false => Answer {
+                mass: 2.0 * together * against / (together + against),
+                of_sum: 2.0 * self.share * against / (together + against),
+                of_opposite: (against - together) / (against + together),
+            },
+        }
+    }
+}
+
+/// The acceleration of a node is the force on it, less a part of the sum of the forces on all nodes of its element, plus a part
+/// of that on the opposite node, over a mass; all over the lumped mass of a node.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Answer {
+    pub mass: f64,
+    pub of_sum: f64,
+    pub of_opposite: f64,
+}
+
+impl Answer {
+    /// That of lumped masses.
+    pub const LUMPED: Self = Self {
+        mass: 1.0,
+        of_sum: 0.0,
+        of_opposite: 0.0,
+    };
+}
+
 /// How a mesh of any dimension numbers its elements: first those in groups of alike ones, then the atoms.
 ///
 /// The nodes of a group follow each other, first corner by first corner, then the second corners, and so on; the groups'
@@ -16,6 +80,8 @@ pub trait Grouped {
     fn group_count(&self) -> usize;
     /// The elements and the nodes of a group.
     fn group(&self, number: usize) -> [Range<usize>; 2];
+    /// For each group how the consistent mass matrix couples the nodes of one of its elements.
+    fn mass_couplings(&self) -> Vec<MassCoupling>;
 
     /// Where the nodes of elements from a number on begin that starts a group or the atoms.
     fn first_node(&self, element: usize) -> usize {

@@ -12,9 +12,10 @@ pub mod template;
 mod tests;
 mod tiling;
 
+use std::collections::HashMap;
 use std::ops::Range;
 
-use super::grouped::Grouped;
+use super::grouped::{Grouped, MassCoupling};
 use element::{Element, Shape};
 use region::Region;
 use sites::Sites;
@@ -230,5 +231,17 @@ impl Grouped for Solid {
     fn group(&self, number: usize) -> [Range<usize>; 2] {
         let group = &self.groups[number];
         [group.elements.clone(), group.nodes()]
+    }
+
+    fn mass_couplings(&self) -> Vec<MassCoupling> {
+        let mut known: HashMap<(Shape, i32), MassCoupling> = HashMap::new();
+        let groups = self.groups.iter();
+        let couplings = groups.map(|group| {
+            let element = &self.elements[group.elements.start];
+            *known
+                .entry((group.shape, group.size))
+                .or_insert_with(|| element.mass_coupling())
+        });
+        couplings.collect()
     }
 }

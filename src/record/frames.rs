@@ -20,6 +20,8 @@ pub trait Vector: Row {
 pub trait Tensor: Row {
     /// Which of its components VTK's xx, yy, zz, xy, yz, xz are; those of a plane have none out of it.
     const IN_VTK: [Option<usize>; 6];
+    /// What its components are called, in their order.
+    const COMPONENTS: &'static [&'static str];
 }
 
 impl<const WIDTH: usize> Row for [f64; WIDTH]
@@ -53,10 +55,12 @@ impl Vector for [f64; 3] {
 
 impl Tensor for [f64; 3] {
     const IN_VTK: [Option<usize>; 6] = [Some(0), Some(1), None, Some(2), None, None];
+    const COMPONENTS: &'static [&'static str] = &["xx", "yy", "xy"];
 }
 
 impl Tensor for [f64; 6] {
     const IN_VTK: [Option<usize>; 6] = [Some(0), Some(1), Some(2), Some(5), Some(3), Some(4)];
+    const COMPONENTS: &'static [&'static str] = &["xx", "yy", "zz", "yz", "xz", "xy"];
 }
 
 /// Cells and reference positions, as ParaView wants them. Written once a run.

@@ -93,6 +93,9 @@ impl Solver<Solid, 3> {
         let masses = mesh.lumped_masses().into_iter();
         let masses = masses.map(|mass| mass * material.site_mass).collect();
         let mut state = State::at_rest(mesh.node_positions(), masses);
+        if settings.consistent_mass > 0.0 {
+            state.couple_masses(&mesh, settings.consistent_mass);
+        }
         let Experiment {
             actions,
             ramp,
@@ -112,6 +115,7 @@ impl Solver<Solid, 3> {
         };
         let thermometer = Thermometer::new(atoms);
         let forces = Forces::shared(ranks, mesh, material, settings.summation);
+        let forces = forces.with_consistent_mass(settings.consistent_mass);
         let mut loading = Together::new(actions);
         loading.keep_to(&forces.domain().nodes());
         let solid = Solid {

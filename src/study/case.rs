@@ -158,6 +158,16 @@ pub enum MassMatrix {
     Blend(f64),
 }
 
+impl MassMatrix {
+    /// The share of the consistent matrix.
+    pub fn consistent_share(self) -> f64 {
+        match self {
+            Self::Lumped => 0.0,
+            Self::Blend(share) => share,
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Probes {
     /// Simulated time between rows of the time series, ps.

@@ -5,6 +5,7 @@ mod comparison;
 mod frequency;
 mod masses;
 mod readings;
+mod solid_masses;
 mod units;
 
 use cgaft::analysis::regression;

@@ -136,7 +136,7 @@ fn in_lammps(model: &Model, position: &Planes) -> (f64, Planes) {
     let folder = Folder::new();
     let state = State::at_rest(position.clone(), vec![1.0; position[0].len()]);
     let mut file = File::create(folder.file("data.state")).unwrap();
-    model.write_data("a state", &state, &mut file).unwrap();
+    model.crystal.write_data("a state", &state, &mut file).unwrap();
     let output = "
 thermo_style custom pe
 thermo_modify norm no format float %.16e
@@ -144,7 +144,7 @@ dump forces all custom 1 dump.state id x y fx fy
 dump_modify forces sort id format float %.16e
 run 0
 ";
-    fs::write(folder.file("in.state"), model.settings("data.state") + output).unwrap();
+    fs::write(folder.file("in.state"), model.crystal.settings("data.state") + output).unwrap();
     folder.run("in.state");
     let snapshot = folder.snapshots("dump.state").pop().unwrap();
     assert_eq!(snapshot.first, *position, "LAMMPS reads every bit");
@@ -206,7 +206,10 @@ fn compare_runs((potential, text): (&str, &str), name: &str, steps_before: u64, 
         (0..steps_before).for_each(|_| solver.advance().unwrap());
         let model = Model::new(&case, slab, &material, solver.mesh()).unwrap();
         let mut file = File::create(folder.file(&format!("data.{name}"))).unwrap();
-        model.write_data("a later start", solver.state(), &mut file).unwrap();
+        model
+            .crystal
+            .write_data("a later start", solver.state(), &mut file)
+            .unwrap();
     }
     let broken_before = broken_ahead(solver.mesh(), &solver.state().position);
     folder.run(&format!("in.{name}"));

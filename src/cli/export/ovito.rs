@@ -1,5 +1,5 @@
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 use serde_json::json;
@@ -9,9 +9,11 @@ use crate::cli::survey::{self, OfResults};
 use crate::cli::terminal::Terminal;
 use crate::cli::{CliError, format};
 use crate::export::ovito::{self, Sites};
+use crate::record::frames::Vector;
 use crate::record::{self, FIELDS_FILE};
 use crate::report::ReportError;
 use crate::store::State;
+use crate::study::case::Body;
 
 #[derive(Args, Debug)]
 pub struct Arguments {
@@ -41,12 +43,6 @@ pub fn ovito(arguments: &Arguments) -> Result<u8, CliError> {
             case.name, common.study, case.name
         )));
     };
-    if case.case.solid().is_some() {
-        return Err(CliError::Input(format!(
-            "case `{}` is a solid, and pictures are exported of slabs; open its fields.vtkhdf in ParaView",
-            case.name
-        )));
-    }
     let fields = survey.store.run_folder(&entry.id).join(FIELDS_FILE);
     if !fields.exists() {
         return Err(CliError::Input(format!(
@@ -54,21 +50,29 @@ pub fn ovito(arguments: &Arguments) -> Result<u8, CliError> {
             case.name
         )));
     }
+    match case.case.body {
+        Body::Slab(_) => pictures::<[f64; 2]>(arguments, &survey.plan.study, &fields),
+        Body::Solid(_) => pictures::<[f64; 3]>(arguments, &survey.plan.study, &fields),
+    }
+}
+
+/// Writes those of a file.
+fn pictures<V: Vector>(arguments: &Arguments, study: &str, fields: &Path) -> Result<u8, CliError> {
+    let (name, common) = (&arguments.case, &arguments.of.common);
     let read = |error| CliError::Report(ReportError::Read(error));
-    let (mesh, frames) = record::read_fields(&fields).map_err(read)?;
+    let (mesh, frames) = record::read_fields::<V>(fields).map_err(read)?;
     let which = if arguments.atoms { Sites::Atoms } else { Sites::All };
     let sites = ovito::count(&mesh, which);
     if sites == 0 {
         return Err(CliError::Input(format!(
-            "case `{}` has no single atoms; leave out `--atoms`",
-            case.name
+            "case `{name}` has no single atoms; leave out `--atoms`"
         )));
     }
     fs::create_dir_all(&arguments.into).map_err(|source| CliError::Output {
         what: arguments.into.display().to_string(),
         source,
     })?;
-    let path = arguments.into.join(format!("{}.xyz", case.name));
+    let path = arguments.into.join(format!("{name}.xyz"));
     let number = frames.times().len();
     let mut damaged = None;
     write(&path, |out| {
@@ -87,7 +91,7 @@ pub fn ovito(arguments: &Arguments) -> Result<u8, CliError> {
         return Err(read(error));
     }
     let json = json!({
-        "study": survey.plan.study, "case": case.name, "file": path, "sites": sites, "pictures": number,
+        "study": study, "case": name, "file": path, "sites": sites, "pictures": number,
     });
     let terminal = Terminal {
         quiet: false,

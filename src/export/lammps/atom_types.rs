@@ -31,6 +31,29 @@ const ABOVE: u32 = 3;
 const BEYOND_CUTOFF: f64 = 2.0;
 
 impl AtomTypes {
+    /// One type for each set of groups that an atom belongs to, where no pair is severed; type 1 is that of none. Also the
+    /// types of the members of each group.
+    pub fn of_groups(atoms: usize, groups: &[Vec<u32>]) -> (Self, Vec<Vec<u32>>) {
+        let mut memberships = vec![Vec::new(); atoms];
+        for (group, members) in groups.iter().enumerate() {
+            members.iter().for_each(|&atom| memberships[atom as usize].push(group));
+        }
+        let sets: BTreeSet<&Vec<usize>> = memberships.iter().filter(|set| !set.is_empty()).collect();
+        let sets: Vec<&Vec<usize>> = sets.into_iter().collect();
+        let kind = |set: &Vec<usize>| sets.binary_search(&set).map_or(AWAY, |place| AWAY + 1 + place as u32);
+        let types_of = |group: usize| {
+            let own = sets.iter().filter(|set| set.contains(&group));
+            own.map(|&set| kind(set)).collect()
+        };
+        let types = Self {
+            of_site: memberships.iter().map(kind).collect(),
+            count: AWAY + sets.len() as u32,
+            severed: vec![],
+            reach: f64::INFINITY,
+        };
+        (types, (0..groups.len()).map(types_of).collect())
+    }
+
     /// The types for a cutoff in spacings.
     pub fn new(mesh: &Mesh, cutoff: f64) -> Self {
         let reach = cutoff + BEYOND_CUTOFF;
@@ -170,6 +193,13 @@ mod tests {
             }
             assert!(severed > 100 && types.of_site.iter().all(|&kind| (1..=types.count).contains(&kind)));
         }
+    }
+
+    #[test]
+    fn atoms_of_the_same_groups_have_the_same_type_and_a_group_knows_its_types() {
+        let (types, of_groups) = AtomTypes::of_groups(6, &[vec![0, 1, 2], vec![2, 3], vec![]]);
+        assert_eq!((types.count, types.of_site), (4, vec![2, 2, 3, 4, 1, 1]));
+        assert_eq!(of_groups, [vec![2, 3], vec![3, 4], vec![]]);
     }
 
     #[test]

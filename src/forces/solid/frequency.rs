@@ -13,7 +13,7 @@ use crate::mesh::solid::element::{Element, Shape};
 const BISECTIONS: u32 = 12;
 
 impl Forces {
-    /// Bound of the squared highest frequency with bonds as they are now and lumped masses, 1/ps^2: that of the crystal at rest
+    /// Bound of the squared highest frequency with bonds as they are now, 1/ps^2: that of the crystal at rest
     /// times how much stiffer the stiffest bond is.
     pub fn squared_frequency_bound(&self, position: &super::Planes) -> f64 {
         let interaction = &self.material.interaction;
@@ -109,8 +109,35 @@ impl Forces {
                 }
             }
         }
-        let largest = SymmetricEigen::new(stiffness).eigenvalues.max();
+        // The masses are the same along every axis.
+        let slowness = self.inverse_root_of_masses(element);
+        let slowness = DMatrix::from_fn(3 * nodes, 3 * nodes, |row, column| match row % 3 == column % 3 {
+            true => slowness[(row / 3, column / 3)],
+            false => 0.0,
+        });
+        let largest = SymmetricEigen::new(&slowness * stiffness * &slowness).eigenvalues.max();
         largest / (element.lumped_mass() * self.material.site_mass)
+    }
+
+    /// The inverse of the square root of the mass matrix of an element, over that of a lumped mass.
+    fn inverse_root_of_masses(&self, element: Element) -> DMatrix<f64> {
+        let nodes = element.shape.node_count();
+        if element.shape == Shape::Atom || self.consistent_mass == 0.0 {
+            return DMatrix::identity(nodes, nodes);
+        }
+        let coupling = element.mass_coupling().times(self.consistent_mass);
+        let own = 1.0 - nodes as f64 * coupling.share - coupling.opposite;
+        let masses = DMatrix::from_fn(nodes, nodes, |row, column| {
+            let even = if row == column { own } else { 0.0 };
+            let opposite = if row ^ 1 == column { coupling.opposite } else { 0.0 };
+            coupling.share + even + opposite
+        });
+        let SymmetricEigen {
+            eigenvectors,
+            eigenvalues,
+        } = SymmetricEigen::new(masses);
+        let roots = DMatrix::from_diagonal(&eigenvalues.map(|value| 1.0 / value.sqrt()));
+        &eigenvectors * roots * eigenvectors.transpose()
     }
 
     /// The shortest bond of this rank, nm: inside parts and across intact interfaces from the bonds of classes, among points from

@@ -4,6 +4,8 @@
 //! local coordinates (p, q, r) from its anchor and s = p + q + r, they hold s <= n - 2, n - 1 <= s <= 2n - 2 and the rest.
 //! [Deng2011] Fig. 3-7 and Fig. 3-8; the two pyramids of the source share their four nodes and are one octahedron here.
 
+use crate::mesh::grouped::MassCoupling;
+
 /// What an element is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Shape {
@@ -130,6 +132,27 @@ impl Element {
     pub fn lumped_mass(self) -> f64 {
         self.site_count() as f64 / self.shape.node_count() as f64
     }
+
+    /// How the consistent mass matrix m sum_a N_i(a) N_j(a) couples its nodes, over the lumped mass of one.
+    pub fn mass_coupling(self) -> MassCoupling {
+        let mut sums = [0.0; 2];
+        for local in self.locals() {
+            let [first, beside, other, ..] = self.shape_functions(local);
+            sums[0] += first * beside;
+            sums[1] += first * other;
+        }
+        let [beside, other] = sums.map(|sum| sum / self.lumped_mass());
+        // The second node of an octahedron is opposite the first; all others have no opposite.
+        let [share, opposite] = match self.shape {
+            Shape::Octahedron => [other, beside - other],
+            _ => [beside, 0.0],
+        };
+        MassCoupling {
+            corners: self.shape.node_count(),
+            share,
+            opposite,
+        }
+    }
 }
 
 fn volume_coordinates(local: [f64; 3], edge: f64) -> [f64; 6] {
@@ -194,6 +217,39 @@ mod tests {
                     of_nodes.iter().all(|mass| (mass - element.lumped_mass()).abs() < 1e-10),
                     "{of_nodes:?}"
                 );
+            }
+        }
+    }
+
+    #[test]
+    fn masses_are_coupled_as_the_sums_over_sites_say() {
+        // [Deng2011] Eq. (3-29): rows sum to the lumped mass.
+        for size in [3, 6, 10] {
+            for shape in Shape::OF_BLOCK {
+                let element = part(shape, size);
+                let coupling = element.mass_coupling();
+                let nodes = shape.node_count();
+                assert_eq!(coupling.corners, nodes);
+                let mut products = [[0.0; 6]; 6];
+                for weights in element.locals().map(|local| element.shape_functions(local)) {
+                    for (i, j) in (0..36).map(|number| (number / 6, number % 6)) {
+                        products[i][j] += weights[i] * weights[j] / element.lumped_mass();
+                    }
+                }
+                for (i, row) in products[..nodes].iter().enumerate() {
+                    for (j, found) in row[..nodes].iter().enumerate() {
+                        let own = 1.0 - nodes as f64 * coupling.share - coupling.opposite;
+                        let expected = match (i == j, i ^ 1 == j) {
+                            (true, _) => coupling.share + own,
+                            (_, true) => coupling.share + coupling.opposite,
+                            _ => coupling.share,
+                        };
+                        assert!(
+                            (found - expected).abs() < 1e-12,
+                            "{shape:?} {size}: {i} {j} {found} {expected}"
+                        );
+                    }
+                }
             }
         }
     }

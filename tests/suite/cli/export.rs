@@ -40,6 +40,29 @@ fn an_all_atom_case_becomes_a_script_and_a_data_file_that_say_what_they_are() {
 }
 
 #[test]
+fn an_all_atom_solid_becomes_a_script_with_its_loading_and_a_data_file() {
+    let place = Workspace::new();
+    let solid = include_str!("../../studies/solid.yaml");
+    place.write_study(solid);
+    place
+        .cgaft(&["export", "lammps", "slab.yaml", "--case", "atoms"])
+        .succeeded();
+    let [script, data] = ["in.atoms", "data.atoms"].map(|file| fs::read_to_string(place.path(file)).unwrap());
+    for words in [
+        "dimension 3\nboundary s s s\n",
+        "group loading type ",
+        "fix held held setforce 0.0 0.0 0.0",
+        "variable sigma_yy equal ",
+    ] {
+        assert!(script.contains(words), "{words}: {script}");
+    }
+    assert!(data.contains("\n1728 atoms\n3 atom types\n"), "{}", &data[..200]);
+    let refused = place.cgaft(&["export", "lammps", "slab.yaml", "--case", "mixed", "--into", "there"]);
+    assert_eq!(refused.code, Some(2));
+    assert!(refused.stderr.contains("single atoms only"), "{}", refused.stderr);
+}
+
+#[test]
 fn what_a_person_may_have_edited_is_never_overwritten() {
     let place = workspace(str::to_owned);
     place.cgaft(&EXPORT).succeeded();

@@ -58,6 +58,15 @@ fn a_study_of_a_solid_becomes_a_report_that_answers() {
     for file in ["series.h5", "fields.vtkhdf", "checkpoint.h5", "case.yaml"] {
         assert!(place.case("mixed").join(file).exists(), "{file}");
     }
+    let export = std::process::Command::new(env!("CARGO_BIN_EXE_cgaft"))
+        .args(["export", "ovito", "slab.yaml", "--case", "mixed"])
+        .current_dir(place.path(""))
+        .output();
+    assert!(export.unwrap().status.success());
+    let pictures = fs::read_to_string(place.path("mixed.xyz")).unwrap();
+    let mut lines = pictures.lines();
+    assert_eq!(lines.next(), Some("1728"), "every site is there");
+    assert!(lines.next().unwrap().contains("stress_yz_gpa:R:1"));
 }
 
 #[test]

@@ -5,16 +5,15 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
-use cgaft::forces::Planes;
 use tempfile::TempDir;
 
 pub struct Folder(TempDir);
 
-/// What a dump tells of one moment: two planes, and two more.
-pub struct Snapshot {
+/// What a dump tells of one moment: a vector of every atom, and another.
+pub struct Snapshot<const D: usize = 2> {
     pub step: u64,
-    pub first: Planes,
-    pub second: Planes,
+    pub first: [Vec<f64>; D],
+    pub second: [Vec<f64>; D],
 }
 
 impl Folder {
@@ -44,8 +43,8 @@ impl Folder {
         assert!(output.status.success(), "{said}");
     }
 
-    /// What a dump with columns `id …`, then four numbers, holds; atoms sorted.
-    pub fn snapshots(&self, name: &str) -> Vec<Snapshot> {
+    /// What a dump with columns `id …`, then two vectors, holds; atoms sorted.
+    pub fn snapshots<const D: usize>(&self, name: &str) -> Vec<Snapshot<D>> {
         let text = fs::read_to_string(self.file(name)).unwrap();
         text.split("ITEM: TIMESTEP\n").skip(1).map(snapshot).collect()
     }
@@ -59,17 +58,17 @@ impl Folder {
     }
 }
 
-fn snapshot(text: &str) -> Snapshot {
+fn snapshot<const D: usize>(text: &str) -> Snapshot<D> {
     let (head, rows) = text.split_once("ITEM: ATOMS").unwrap();
     let mut snapshot = Snapshot {
         step: head.lines().next().unwrap().parse().unwrap(),
-        first: Planes::default(),
-        second: Planes::default(),
+        first: std::array::from_fn(|_| Vec::new()),
+        second: std::array::from_fn(|_| Vec::new()),
     };
     for (number, row) in rows.lines().skip(1).enumerate() {
         let words: Vec<&str> = row.split_whitespace().collect();
         assert_eq!(words[0].parse(), Ok(number + 1), "sorted");
-        let numbers = words[words.len() - 4..].iter().map(|word| word.parse().unwrap());
+        let numbers = words[words.len() - 2 * D..].iter().map(|word| word.parse().unwrap());
         let planes = snapshot.first.iter_mut().chain(&mut snapshot.second);
         planes
             .zip(numbers)

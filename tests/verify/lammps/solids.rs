@@ -1,139 +1,148 @@
-//! Face-centred cubic crystals of atoms in LAMMPS: forces, and where a thousand steps lead.
+//! Face-centred cubic crystals of atoms in LAMMPS: forces, and where a thousand steps of every loading lead.
 
-use std::fmt::Write;
-use std::fs;
+use std::fs::{self, File};
+use std::process::Command;
 
-use cgaft::forces::solid::{Forces, Planes};
-use cgaft::integrator;
-use cgaft::material::Material;
-use cgaft::mesh::solid::sites::{Frame, Outline, Sites};
-use cgaft::mesh::solid::{Plan, Solid};
-use cgaft::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
+use cgaft::domain::Ranks;
+use cgaft::export::lammps::SolidModel;
+use cgaft::forces::solid::Forces;
+use cgaft::solver::{Body as _, Solid, Solver};
 use cgaft::state::State;
+use cgaft::study::case::Case;
+use cgaft::{plan, setup, study};
 
 use super::super::table::{Chapter, Gate};
 use super::program::Folder;
-use super::{ROUNDING, TRAJECTORY};
-
-const STEPS: u32 = 1000;
-const TIME_STEP: f64 = 0.002;
+use super::{ROUNDING, TRAJECTORY, worst};
 
 /// Atoms are displaced by at most so much, in spacings: far from rest, near enough for none to leave another.
 const DISPLACED: f64 = 0.03;
 
+/// A thousand steps of 0.005 in the unit of the potential, sigma sqrt(m/epsilon) = 1.0191 ps; every loading is at work in them.
+const STUDY: &str = "
+study: parity
+base:
+  material: {potential: {lennard-jones: {epsilon: 0.415 eV, sigma: 0.2277 nm, cutoff: 0.34 nm}}, mass: 802 u}
+  specimen: {lattice: fcc, blocks: [3, 2, 2], block: 4}
+  resolution: {element: 1}
+  held: {faces: [a1-low], layers: 2}
+  run: {until: {time: 5.0955 ps}, time-step: 0.0050955 ps}
+  probes: {every: 0.50955 ps}
+  observe: [{snapshots: {every: 0.50955 ps}}]
+cases:
+  pulled: {loading: {velocity: {face: a1-high, speed: 5 m/s, layers: 2, ramp: initial-velocity}}}
+  loaded: {loading: {traction: {face: a1-high, stress: [300 MPa, 100 MPa, -200 MPa], rise-time: 2 ps}}}
+  torn: {loading: {opposed-tractions: {axis: a1, thickness: a3, share: 50 %, stress: [0 MPa, 0 MPa, 300 MPa]}}}
+  struck: {loading: {pulse: {face: a1-high, shape: half-sine, duration: 3 ps, pressure: 500 MPa}}}
+  rung: {loading: {pulse: {face: a1-high, shape: gaussian, duration: 4 ps, pressure: 500 MPa}}}
+  hit: {loading: {impact: {face: a3-high, radius: 1 nm, speed: 20 m/s, gap: 0.01 nm}}}
+";
+
+const LOADINGS: [&str; 6] = ["pulled", "loaded", "torn", "struck", "rung", "hit"];
+
+fn case(text: &str, name: &str) -> Case {
+    let study = study::read_text("parity.yaml", text).unwrap();
+    let plan = plan::plan(&study).unwrap_or_else(|error| panic!("{}", error.render(false)));
+    let named = plan.cases.into_iter().find(|planned| planned.name == name);
+    named.expect("the study has this case").case
+}
+
+fn solver(case: &Case) -> Solver<Solid, 3> {
+    setup::solid::solver(case, case.solid().unwrap(), Ranks::alone()).unwrap()
+}
+
+fn model(case: &Case, solver: &Solver<Solid, 3>) -> SolidModel {
+    let solid = case.solid().unwrap();
+    let material = setup::solid::material(solid).unwrap();
+    let size = (solver.state().nodes(), solver.body().setting().volume);
+    SolidModel::new(case, solid, &material, size, solver.body().load().acts()).unwrap()
+}
+
 #[test]
-fn forces_and_trajectories_of_crystals_equal_those_of_lammps() {
-    let mut gate = Gate::new(Chapter::Peer, "1 forces and trajectories of solids");
-    for cutoff in [1.4932, 2.5] {
-        let shape = LennardJones {
-            epsilon: 1.0,
-            sigma: 1.0,
-        };
-        let law = CutPotential::new(shape, cutoff, AtCutoff::Truncated);
-        let material = Material::face_centred_cubic(Interaction::LennardJones(law), 1.0).unwrap();
-        let sites = Sites {
-            outline: Outline::Rhombohedron([12, 10, 8]),
-            frame: Frame::of_blocks(material.spacing),
-            removed: vec![],
-        };
-        let plan = Plan {
-            sites,
-            element: 1,
-            regions: vec![],
-            spacing: material.spacing,
-        };
-        let mesh = Solid::new(&plan);
-        let start = displaced(&mesh);
-        let [first, last] = in_lammps(&start, cutoff);
-        let mut forces = Forces::new(mesh.clone(), material);
-        let mut state = State::at_rest(start, mesh.lumped_masses());
-        forces.compute(&mut state.position, &mut state.force).unwrap();
-        let setting = format!("Lennard-Jones truncated at {cutoff} sigma, {} atoms", mesh.site_count());
-        let largest = state
-            .force
-            .iter()
-            .flatten()
-            .fold(0.0, |most: f64, force| most.max(force.abs()));
-        let off = difference(&state.force, &first.forces) / largest;
+fn forces_on_atoms_of_a_solid_equal_those_of_lammps() {
+    let mut gate = Gate::new(Chapter::Peer, "1 forces of solids");
+    for cutoff in ["0.34 nm", "0.56925 nm"] {
+        let case = case(&STUDY.replace("0.34 nm", cutoff), "struck");
+        let solver = solver(&case);
+        let start = State::at_rest(displaced(&solver), vec![1.0; solver.state().nodes()]);
+        let folder = Folder::new();
+        let mut file = File::create(folder.file("data.state")).unwrap();
+        let model = model(&case, &solver);
+        model.crystal.write_data("a state", &start, &mut file).unwrap();
+        let output = "dump all all custom 1 dump.state id x y z fx fy fz\n\
+                      dump_modify all sort id format float %.16e\nrun 0\n";
+        fs::write(folder.file("in.state"), model.crystal.settings("data.state") + output).unwrap();
+        folder.run("in.state");
+        let snapshot = folder.snapshots::<3>("dump.state").pop().unwrap();
+        assert_eq!(snapshot.first, start.position, "LAMMPS reads every bit");
+        let mut forces = start.force.clone();
+        let material = setup::solid::material(case.solid().unwrap()).unwrap();
+        let mut summed = Forces::new(solver.mesh().clone(), material);
+        summed.compute(&mut start.position.clone(), &mut forces).unwrap();
+        let largest = worst(forces.iter().flatten().map(|force| force.abs()));
+        let off = difference(&forces, &snapshot.second) / largest;
+        let setting = format!("Lennard-Jones truncated at {cutoff}, {} atoms", start.nodes());
         gate.below("force, change over the largest", &setting, off, ROUNDING);
-        let nodes = state.every_node();
-        for _ in 0..STEPS {
-            integrator::kick_and_drift(&mut state, &nodes, integrator::leap(1, TIME_STEP));
-            forces.compute(&mut state.position, &mut state.force).unwrap();
-            integrator::kick(&mut state, &nodes, 0.5 * TIME_STEP);
-        }
-        let off = difference(&state.position, &last.positions) / material.spacing;
-        gate.below("place after 1,000 steps, spacings", &setting, off, TRAJECTORY);
     }
     gate.close();
 }
 
-fn displaced(mesh: &Solid) -> Planes {
-    let mut position = mesh.node_positions();
+fn displaced(solver: &Solver<Solid, 3>) -> [Vec<f64>; 3] {
+    let mut position = solver.mesh().node_positions();
     let mut seed = 11u64;
     for place in position.iter_mut().flatten() {
         seed = seed
             .wrapping_mul(6_364_136_223_846_793_005)
             .wrapping_add(1_442_695_040_888_963_407);
         let noise = (seed >> 11) as f64 / (1u64 << 52) as f64 - 1.0;
-        *place += DISPLACED * mesh.spacing * noise;
+        *place += DISPLACED * solver.mesh().spacing * noise;
     }
     position
 }
 
-fn difference(found: &Planes, expected: &Planes) -> f64 {
+#[test]
+fn a_solid_moves_under_every_loading_as_in_lammps_from_the_exported_input() {
+    let mut gate = Gate::new(Chapter::Peer, "4 trajectories of solids");
+    for name in LOADINGS {
+        let folder = Folder::new();
+        fs::write(folder.file("parity.yaml"), STUDY).unwrap();
+        let export = Command::new(env!("CARGO_BIN_EXE_cgaft"))
+            .args(["export", "lammps", "parity.yaml", "--case", name, "--into", "."])
+            .current_dir(folder.path())
+            .output();
+        assert!(export.unwrap().status.success());
+        folder.run(&format!("in.{name}"));
+        let snapshots = folder.snapshots::<3>(&format!("dump.{name}"));
+        assert_eq!((snapshots.len(), snapshots[10].step), (11, 1000));
+        let mut solver = solver(&case(STUDY, name));
+        let start = solver.state().position.clone();
+        let [mut positions, mut velocities] = [vec![], vec![]];
+        for snapshot in snapshots {
+            while solver.step_count() < snapshot.step {
+                solver.advance().unwrap();
+            }
+            let (state, spacing) = (solver.state(), solver.mesh().spacing);
+            positions.push(difference(&snapshot.first, &state.position) / spacing);
+            velocities.push(difference(&snapshot.second, &state.velocity) / spacing);
+        }
+        let moved = difference(&start, &solver.state().position) / solver.mesh().spacing;
+        assert!(
+            moved > 100.0 * TRAJECTORY,
+            "{name} moves atoms by {moved} spacings only"
+        );
+        let setting = format!("{name}, {} atoms, 1,000 steps", solver.state().nodes());
+        gate.below("positions, change over r0", &setting, worst(positions), TRAJECTORY);
+        gate.below(
+            "velocities, change over r0 a ps",
+            &setting,
+            worst(velocities),
+            TRAJECTORY,
+        );
+    }
+    gate.close();
+}
+
+fn difference(found: &[Vec<f64>; 3], expected: &[Vec<f64>; 3]) -> f64 {
     let pairs = found.iter().flatten().zip(expected.iter().flatten());
-    pairs
-        .map(|(found, expected)| (found - expected).abs())
-        .fold(0.0, f64::max)
-}
-
-struct Moment {
-    positions: Planes,
-    forces: Planes,
-}
-
-/// The first moment and that after all steps.
-fn in_lammps(position: &Planes, cutoff: f64) -> [Moment; 2] {
-    let folder = Folder::new();
-    let atoms = position[0].len();
-    let mut data = format!("atoms\n\n{atoms} atoms\n1 atom types\n\n");
-    for (axis, plane) in ["x", "y", "z"].into_iter().zip(position) {
-        let least = plane.iter().copied().fold(f64::INFINITY, f64::min) - 5.0;
-        let most = plane.iter().copied().fold(f64::NEG_INFINITY, f64::max) + 5.0;
-        writeln!(data, "{least} {most} {axis}lo {axis}hi").unwrap();
-    }
-    data.push_str("\nAtoms # atomic\n\n");
-    for atom in 0..atoms {
-        let [x, y, z] = position.each_ref().map(|plane| plane[atom]);
-        writeln!(data, "{} 1 {x:.17e} {y:.17e} {z:.17e}", atom + 1).unwrap();
-    }
-    fs::write(folder.file("atoms.data"), data).unwrap();
-    let script = format!(
-        "units lj\natom_style atomic\nboundary f f f\nread_data atoms.data\nmass 1 1.0\npair_style lj/cut {cutoff}\n\
-         pair_coeff 1 1 1.0 1.0\nneighbor 0.3 bin\nneigh_modify every 1 delay 0 check yes\nfix 1 all nve\n\
-         timestep {TIME_STEP}\ndump 1 all custom {STEPS} dump.txt id x y z fx fy fz\n\
-         dump_modify 1 sort id format float %.17g\nrun {STEPS}\n"
-    );
-    fs::write(folder.file("in.solid"), script).unwrap();
-    folder.run("in.solid");
-    let text = fs::read_to_string(folder.file("dump.txt")).unwrap();
-    let moments: Vec<Moment> = text.split("ITEM: TIMESTEP\n").skip(1).map(moment).collect();
-    moments.try_into().ok().expect("two moments")
-}
-
-fn moment(text: &str) -> Moment {
-    let (_, rows) = text.split_once("ITEM: ATOMS").unwrap();
-    let mut moment = Moment {
-        positions: Planes::default(),
-        forces: Planes::default(),
-    };
-    for (number, row) in rows.lines().skip(1).enumerate() {
-        let words: Vec<&str> = row.split_whitespace().collect();
-        assert_eq!(words[0].parse(), Ok(number + 1), "sorted");
-        let numbers = words[1..].iter().map(|word| word.parse::<f64>().unwrap());
-        let planes = moment.positions.iter_mut().chain(&mut moment.forces);
-        planes.zip(numbers).for_each(|(plane, number)| plane.push(number));
-    }
-    moment
+    worst(pairs.map(|(found, expected)| (found - expected).abs()))
 }
