@@ -85,6 +85,8 @@ pub struct Forces {
     /// `None` before the first search and after an interface has opened that was not ready for it.
     pairs: Option<Pairs>,
     farthest: f64,
+    /// Share of the consistent mass matrix; the rest of the masses is lumped.
+    consistent_mass: f64,
     /// The squared highest frequency of the crystal at rest, 1/ps^2, once it has been asked for.
     frequency_at_rest: OnceLock<f64>,
     arch: Arch,
@@ -136,12 +138,22 @@ impl Forces {
             few: few.collect(),
             classes,
             pairs: None,
+            consistent_mass: 0.0,
             frequency_at_rest: OnceLock::new(),
             arch: Arch::new(),
             searches: 0,
             search_time: Duration::ZERO,
             exchanges: 0,
             exchange_time: Duration::ZERO,
+        }
+    }
+
+    /// With this share of the consistent mass matrix; the rest of the masses is lumped. Frequencies depend on it.
+    pub fn with_consistent_mass(self, consistent_mass: f64) -> Self {
+        Self {
+            consistent_mass,
+            frequency_at_rest: OnceLock::new(),
+            ..self
         }
     }
 
