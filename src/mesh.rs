@@ -25,6 +25,7 @@ use groups::Groups;
 use owners::Owners;
 use region::Region;
 use sites::{Layout, SiteSet};
+use tiling::Target;
 
 /// What a mesh is made from. Lengths in units of the lattice spacing unless said otherwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -77,8 +78,8 @@ impl Mesh {
         breaks.dedup();
         let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
-        let owners = Owners::new(&sites, &elements, triangles);
         let groups = Groups::new(&elements[..triangles]);
+        let owners = Owners::new(sites.rows(), &elements, &groups);
         let mesh = Self {
             sites,
             elements,
@@ -162,8 +163,10 @@ impl Mesh {
         masses
     }
 
+    /// The element that carries a site; `None` where there is none.
+    #[inline(always)]
     pub fn owner_of(&self, site: [i32; 2]) -> Option<usize> {
-        self.sites.index(site).map(|number| self.owners.of(site[1], number))
+        self.owners.of(site)
     }
 
     /// The same, quickly where it is the element that is guessed.
@@ -204,9 +207,9 @@ impl Mesh {
 }
 
 /// The largest element size allowed at every site.
-fn target_sizes(plan: &Plan, sites: &SiteSet) -> Vec<u16> {
+fn target_sizes(plan: &Plan, sites: &SiteSet) -> Target {
     if plan.regions.is_empty() {
-        return vec![plan.element; sites.len()];
+        return Target::Everywhere(plan.element);
     }
     let left = sites.left();
     let middle = (f64::from(sites.middle_row()) - 0.5) * triangular::ROW_HEIGHT;
@@ -223,7 +226,7 @@ fn target_sizes(plan: &Plan, sites: &SiteSet) -> Vec<u16> {
             .min()
             .expect("the specimen's own size is there")
     };
-    sites.iter().map(size).collect()
+    Target::Each(sites.iter().map(size).collect())
 }
 
 impl Grouped for Mesh {

@@ -134,23 +134,25 @@ impl Interfaces {
     /// stretch of a row stay together.
     fn sort_and_index(&mut self, mesh: &Mesh) {
         let triangles = mesh.triangles;
-        let no_strings: Vec<bool> = self.kinds.iter().map(|kind| kind.strings.is_empty()).collect();
-        let key = |pair: &Interface| {
-            let first = pair.first as usize;
-            let stretch = (first - mesh.groups.of(first).elements.start) / STRETCH;
-            let row = &mesh.elements[first];
-            (
-                no_strings[pair.kind as usize],
-                -row.size,
-                row.lowest_row(),
-                stretch,
-                mesh.groups.number_of(first),
-                pair.kind,
-                first,
-            )
+        let has_strings = |found: &u32| {
+            let kind = &self.kinds[self.pairs[*found as usize].kind as usize];
+            !kind.strings.is_empty()
         };
-        let mut order: Vec<u32> = (0..self.pairs.len() as u32).collect();
-        order.sort_unstable_by_key(|&found| key(&self.pairs[found as usize]));
+        let (mut order, without): (Vec<u32>, Vec<u32>) = (0..self.pairs.len() as u32).partition(has_strings);
+        order.extend(without);
+        // They were found by their first triangle, so those of a row are together.
+        let row_of = |found: u32| {
+            let first = &mesh.elements[self.pairs[found as usize].first as usize];
+            (has_strings(&found), first.size, first.lowest_row())
+        };
+        for of_row in order.chunk_by_mut(|one, other| row_of(*one) == row_of(*other)) {
+            of_row.sort_unstable_by_key(|&found| {
+                let pair = &self.pairs[found as usize];
+                let first = pair.first as usize;
+                let stretch = (first - mesh.groups.of(first).elements.start) / STRETCH;
+                (stretch, mesh.groups.number_of(first), pair.kind, first)
+            });
+        }
         let mut number_of = vec![0; order.len()];
         (0..)
             .zip(&order)

@@ -2,28 +2,33 @@
 
 use std::ops::Range;
 
+use fixedbitset::FixedBitSet;
+
 use super::element::Element;
 use super::sites::SiteSet;
+
+/// The largest element size allowed at the sites, by their numbers.
+pub enum Target {
+    Everywhere(u16),
+    Each(Vec<u16>),
+}
 
 /// Chooses the elements: rows of triangles as the source lays them, finer ones where they are wanted, and in what
 /// is left over the largest triangles that fit, down to atoms.
 ///
-/// `target[site]` is the largest element size allowed at a site. An element that holds a site of a finer target gives
+/// An element that holds a site of a finer target gives
 /// all its sites to the finer one, so that the border of a region runs along elements. No element crosses a row
 /// boundary in `breaks` (ascending, from 0 to the number of rows). Rows are laid from the crack plane outward, so that
 /// what is left over lies at the far end of the band between two breaks, towards the grips.
-pub fn tile(sites: &SiteSet, target: Vec<u16>, breaks: &[i32]) -> Vec<Element> {
+pub fn tile(sites: &SiteSet, target: Target, breaks: &[i32]) -> Vec<Element> {
     let mut tiling = Tiling {
         sites,
         target,
-        covered: vec![false; sites.len()],
+        covered: FixedBitSet::with_capacity(sites.len()),
         breaks,
         elements: Vec::new(),
     };
-    let runs = tiling.target.chunk_by(|a, b| a == b);
-    let mut sizes: Vec<i32> = runs.map(|run| i32::from(run[0])).collect();
-    sizes.sort_unstable_by(|a, b| b.cmp(a));
-    sizes.dedup();
+    let sizes = tiling.target.sizes();
     for &size in sizes.iter().filter(|&&size| size >= SMALLEST_TRIANGLE) {
         tiling.lay_rows(size);
     }
@@ -43,8 +48,8 @@ const SMALLEST_TRIANGLE: i32 = 3;
 
 struct Tiling<'a> {
     sites: &'a SiteSet,
-    target: Vec<u16>,
-    covered: Vec<bool>,
+    target: Target,
+    covered: FixedBitSet,
     breaks: &'a [i32],
     elements: Vec<Element>,
 }
@@ -110,15 +115,8 @@ impl Tiling<'_> {
             self.cover(element);
             return;
         }
-        for run in self.runs(&element) {
-            for target in &mut self.target[run] {
-                *target = if i32::from(*target) >= element.size {
-                    finest
-                } else {
-                    *target
-                };
-            }
-        }
+        let runs = self.runs(&element);
+        self.target.make_finer(runs, element.size, finest);
     }
 
     /// Puts triangles of one size wherever free sites allow, scanning site by site.
@@ -143,15 +141,15 @@ impl Tiling<'_> {
     }
 
     fn free_sites(&self) -> Vec<[i32; 2]> {
-        let numbered = self.sites.iter().zip(&self.covered);
-        numbered
-            .filter(|(_, covered)| !**covered)
-            .map(|(site, _)| site)
-            .collect()
+        let numbered = self.sites.iter().enumerate();
+        let free = numbered.filter(|(number, _)| !self.covered.contains(*number));
+        free.map(|(_, site)| site).collect()
     }
 
     fn is_free(&self, site: [i32; 2]) -> bool {
-        self.sites.index(site).is_some_and(|number| !self.covered[number])
+        self.sites
+            .index(site)
+            .is_some_and(|number| !self.covered.contains(number))
     }
 
     /// The finest element that a site of this one wants; `None` unless all are there and free.
@@ -159,12 +157,10 @@ impl Tiling<'_> {
         let mut finest = u16::MAX;
         for (leftmost, count) in element.rows() {
             let run = self.sites.run(leftmost, count)?;
-            if self.covered[run.clone()].contains(&true) {
+            if self.covered.contains_any_in_range(run.clone()) {
                 return None;
             }
-            finest = self.target[run]
-                .iter()
-                .fold(finest, |finest, &target| finest.min(target));
+            finest = finest.min(self.target.finest(run));
         }
         Some(finest)
     }
@@ -178,7 +174,7 @@ impl Tiling<'_> {
 
     fn cover(&mut self, element: Element) {
         for run in self.runs(&element) {
-            self.covered[run].fill(true);
+            self.covered.insert_range(run);
         }
         self.elements.push(element);
     }
@@ -186,6 +182,41 @@ impl Tiling<'_> {
     fn crosses_a_break(&self, element: &Element) -> bool {
         let [low, high] = [element.lowest_row(), element.lowest_row() + element.size - 1];
         self.breaks.iter().any(|&row| low < row && row <= high)
+    }
+}
+
+impl Target {
+    /// All sizes, falling.
+    fn sizes(&self) -> Vec<i32> {
+        match self {
+            Self::Everywhere(size) => vec![i32::from(*size)],
+            Self::Each(sizes) => {
+                let runs = sizes.chunk_by(|a, b| a == b);
+                let mut sizes: Vec<i32> = runs.map(|run| i32::from(run[0])).collect();
+                sizes.sort_unstable_by(|a, b| b.cmp(a));
+                sizes.dedup();
+                sizes
+            }
+        }
+    }
+
+    fn finest(&self, run: Range<usize>) -> u16 {
+        match self {
+            Self::Everywhere(size) => *size,
+            Self::Each(sizes) => sizes[run].iter().fold(u16::MAX, |finest, &size| finest.min(size)),
+        }
+    }
+
+    /// Makes sites finer that allow elements of this size.
+    fn make_finer(&mut self, runs: Vec<Range<usize>>, size: i32, finest: u16) {
+        if let Self::Each(sizes) = self {
+            let allowed = runs.into_iter().flatten();
+            allowed.for_each(|site| {
+                if i32::from(sizes[site]) >= size {
+                    sizes[site] = finest;
+                }
+            });
+        }
     }
 }
 
