@@ -196,10 +196,7 @@ impl Forces {
 
     /// Parts that have a side along which atoms or parts of another size lie, ascending.
     pub fn beside_others(&self) -> Vec<u32> {
-        let lonely = self.interfaces.lonely.iter().filter(|side| !side.is_free);
-        let mut parts: Vec<u32> = lonely.map(|side| side.element).collect();
-        parts.dedup();
-        parts
+        self.interfaces.beside_others()
     }
 
     /// How often neighbours were searched, and for how many seconds.

@@ -3,6 +3,7 @@
 //! Elements share no nodes: the parts of blocks come first, row by row along a1, then the atoms. Parts of one shape and size
 //! side by side are a group, whose first nodes have consecutive numbers, then their second, as in [`super::groups`].
 
+pub mod bonds;
 pub mod element;
 pub mod interfaces;
 pub mod region;

@@ -177,6 +177,14 @@ impl Interfaces {
         }
     }
 
+    /// Parts that have a side along which atoms or parts of another size lie, ascending.
+    pub fn beside_others(&self) -> Vec<u32> {
+        let lonely = self.lonely.iter().filter(|side| !side.is_free);
+        let mut parts: Vec<u32> = lonely.map(|side| side.element).collect();
+        parts.dedup();
+        parts
+    }
+
     /// Numbers of the interfaces of a part, ascending.
     pub fn of(&self, part: usize) -> &[u32] {
         &self.of_part[self.starts[part] as usize..self.starts[part + 1] as usize]

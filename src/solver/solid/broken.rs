@@ -10,22 +10,14 @@ use rayon::prelude::*;
 use crate::domain::Domain;
 use crate::forces::solid::Forces;
 use crate::lattice::fcc::NEAREST;
-use crate::mesh::solid::Solid;
+use crate::mesh::solid::bonds::{self, End, place_of, plus};
 use crate::mesh::solid::element::{Element, Shape};
-
-/// No atom.
-const NOBODY: u32 = u32::MAX;
-
-/// A site of an element by its local coordinates.
-type End = (u32, [i32; 3]);
 
 /// The bonds between elements.
 #[derive(Clone, Debug)]
 pub struct Bonds {
-    /// For each atom the places among the atoms of its neighbours along [`NEAREST`].
-    of_atoms: Vec<[u32; 6]>,
-    /// Bonds of parts with atoms and with parts of other sizes, and those across interfaces that have opened.
-    of_parts: Vec<[End; 2]>,
+    /// Those of atoms, of parts with them and with parts of other sizes, and those across interfaces that have opened.
+    single: bonds::Bonds,
     /// The interfaces whose bonds are among them, ascending.
     opened: Vec<u32>,
     /// Bonds that touch an element of each shape and size.
@@ -41,16 +33,7 @@ impl Bonds {
             touching.entry(kind).or_insert_with(|| touching_bonds(*element));
         }
         Self {
-            of_atoms: (mesh.parts..mesh.elements.len())
-                .into_par_iter()
-                .map(|atom| {
-                    NEAREST.map(|vector| {
-                        let other = atom_at(mesh, plus(mesh.elements[atom].anchor, vector));
-                        other.map_or(NOBODY, |other| (other - mesh.parts) as u32)
-                    })
-                })
-                .collect(),
-            of_parts: beside_others(forces),
+            single: bonds::Bonds::new(mesh, &forces.beside_others()),
             opened: Vec::new(),
             touching,
         }
@@ -68,22 +51,17 @@ impl Bonds {
         };
         let at_node = |node: usize| position.each_ref().map(|plane| plane[node]);
         let first = mesh.part_nodes();
-        let of_atom = |(atom, others): (usize, &[u32; 6])| -> Vec<[u32; 2]> {
+        let of_atom = |atom: usize| -> Vec<[u32; 2]> {
             let here = at_node(first + atom);
-            let others = others.iter().filter(|&&other| other != NOBODY);
-            let broken = others.filter(|&&other| is_broken(here, at_node(first + other as usize)));
+            let others = self.single.of_atom(atom).map(|(_, other)| other);
+            let broken = others.filter(|&other| is_broken(here, at_node(first + other as usize)));
             let number = |atom: usize| (mesh.parts + atom) as u32;
-            broken.map(|&other| [number(atom), number(other as usize)]).collect()
+            broken.map(|other| [number(atom), number(other as usize)]).collect()
         };
-        let at = |(element, local): End| {
-            let mut place = [0.0; 3];
-            for (node, weight) in mesh.carriers(element as usize, local) {
-                (0..3).for_each(|axis| place[axis] += weight * position[axis][node]);
-            }
-            place
-        };
-        let between_atoms = self.of_atoms.par_iter().enumerate().flat_map_iter(of_atom);
-        let of_parts = self.of_parts.par_iter().filter(|[a, b]| is_broken(at(*a), at(*b)));
+        let at = |end: End| place_of(mesh, end, position);
+        let between_atoms = (0..self.single.atom_count()).into_par_iter().flat_map_iter(of_atom);
+        let of_parts = self.single.of_parts.par_iter();
+        let of_parts = of_parts.filter(|[a, b]| is_broken(at(*a), at(*b)));
         let of_parts = of_parts.map(|[a, b]| [a.0, b.0]);
         let broken: Vec<[u32; 2]> = between_atoms.chain(of_parts).collect();
         let mut damage = vec![0.0; mesh.elements.len()];
@@ -103,12 +81,7 @@ impl Bonds {
         let open = forces.open_interfaces();
         for &interface in open.iter().filter(|number| self.opened.binary_search(number).is_err()) {
             let [first, second] = forces.beside(interface);
-            let other = mesh.elements[second as usize];
-            for (local, site) in sites(mesh, first) {
-                let neighbours = neighbours(site).filter(|&neighbour| other.contains(neighbour));
-                let bonds = neighbours.map(|neighbour| [(first, local), (second, other.local(neighbour))]);
-                self.of_parts.extend(bonds);
-            }
+            self.single.of_parts.extend(bonds::between(mesh, first, second));
         }
         self.opened = open;
     }
@@ -117,60 +90,6 @@ impl Bonds {
 /// Every rank learns where all nodes are: what is broken may lie far apart.
 fn share(domain: &Domain, position: &mut [Vec<f64>; 3]) {
     position.iter_mut().for_each(|plane| domain.share_nodes(plane));
-}
-
-fn plus(site: [i32; 3], vector: [i32; 3]) -> [i32; 3] {
-    std::array::from_fn(|axis| site[axis] + vector[axis])
-}
-
-fn neighbours(site: [i32; 3]) -> impl Iterator<Item = [i32; 3]> {
-    let both = NEAREST
-        .into_iter()
-        .flat_map(|vector| [vector, vector.map(|part| -part)]);
-    both.map(move |vector| plus(site, vector))
-}
-
-/// Local coordinates and sites of an element.
-fn sites(mesh: &Solid, element: u32) -> impl Iterator<Item = ([i32; 3], [i32; 3])> {
-    let element = mesh.elements[element as usize];
-    element.locals().map(move |local| (local, element.site(local)))
-}
-
-/// The element that is the atom of a site. Atoms are in the order of k, j and i.
-fn atom_at(mesh: &Solid, site: [i32; 3]) -> Option<usize> {
-    let key = |[i, j, k]: [i32; 3]| (k, j, i);
-    let atoms = &mesh.elements[mesh.parts..];
-    let place = atoms.binary_search_by_key(&key(site), |atom| key(atom.anchor));
-    place.ok().map(|place| mesh.parts + place)
-}
-
-/// The bonds of parts with atoms and with parts of other sizes.
-fn beside_others(forces: &Forces) -> Vec<[End; 2]> {
-    let mesh = forces.mesh();
-    let mut owners: HashMap<[i32; 3], u32> = HashMap::new();
-    let parts = forces.beside_others();
-    for &part in &parts {
-        let element = mesh.elements[part as usize];
-        let at_side = sites(mesh, part).filter(|&(_, site)| neighbours(site).any(|other| !element.contains(other)));
-        owners.extend(at_side.map(|(_, site)| (site, part)));
-    }
-    let mut bonds = Vec::new();
-    for &part in &parts {
-        let element = mesh.elements[part as usize];
-        for (local, site) in sites(mesh, part).filter(|(_, site)| owners.contains_key(site)) {
-            for neighbour in neighbours(site).filter(|&neighbour| !element.contains(neighbour)) {
-                if let Some(atom) = atom_at(mesh, neighbour) {
-                    bonds.push([(part, local), (atom as u32, [0; 3])]);
-                } else if let Some(&other) = owners.get(&neighbour) {
-                    let other_size = mesh.elements[other as usize].size;
-                    if part < other && other_size != element.size {
-                        bonds.push([(part, local), (other, mesh.elements[other as usize].local(neighbour))]);
-                    }
-                }
-            }
-        }
-    }
-    bonds
 }
 
 /// Bonds that touch the sites of an element: twelve a site, those inside counted once.
@@ -186,9 +105,10 @@ fn touching_bonds(element: Element) -> f64 {
 mod tests {
     use super::*;
     use crate::material::Material;
-    use crate::mesh::solid::Plan;
+    use crate::mesh::solid::bonds::neighbours;
     use crate::mesh::solid::region::{Region, Shape as RegionShape};
     use crate::mesh::solid::sites::{Frame, Outline, Sites};
+    use crate::mesh::solid::{Plan, Solid};
     use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
 
     /// Sites along each axis.
