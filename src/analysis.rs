@@ -3,6 +3,7 @@
 pub mod columns;
 pub mod comparison;
 pub mod crack;
+pub mod crack_surface;
 pub mod damage;
 pub mod frame;
 pub mod history;
