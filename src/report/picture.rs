@@ -2,7 +2,7 @@
 
 pub mod animation;
 pub mod drawing;
-mod indexed;
+pub mod indexed;
 mod margins;
 mod path;
 pub mod scale;

@@ -26,19 +26,26 @@ pub struct Canvas {
     names: [&'static str; 2],
     /// Of the part inside the axes, pixels.
     height: u32,
+    /// How dark the colours of the scale may be shaded; `None` where they are not.
+    darkest: Option<f64>,
 }
 
 impl Canvas {
     /// Of a slab.
     pub fn new(view: [Range<f64>; 2]) -> Self {
-        Self::named(view, ["x from the left edge (nm)", "y (nm)"])
+        Self::named(view, ["x from the left edge (nm)", "y (nm)"], None)
     }
 
-    pub fn named(view: [Range<f64>; 2], names: [&'static str; 2]) -> Self {
+    pub fn named(view: [Range<f64>; 2], names: [&'static str; 2], darkest: Option<f64>) -> Self {
         let inner = WIDTH - EDGE - LEFT - RIGHT;
         let [x, y] = [0, 1].map(|axis| view[axis].end - view[axis].start);
         let height = (f64::from(inner) * y / x).clamp(97.0, TALLEST) as u32;
-        Self { view, names, height }
+        Self {
+            view,
+            names,
+            height,
+            darkest,
+        }
     }
 
     /// The bytes of a file that shows what is drawn between the axes.
@@ -58,7 +65,11 @@ impl Canvas {
         )?;
         let mut pictures = [Ok(picture)].into_iter();
         let size = [size.0, size.1].map(|side| side as usize);
-        Ok(Palette::of(scale).encode(figure, size, 1, &mut pictures)?)
+        let mut palette = match self.darkest {
+            Some(darkest) => Palette::shaded(scale, darkest),
+            None => Palette::of(scale),
+        };
+        Ok(palette.encode(figure, size, 1, &mut pictures)?)
     }
 
     fn draw_on(

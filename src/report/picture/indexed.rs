@@ -9,6 +9,10 @@ use crate::report::ReportError;
 const SCALE: usize = 192;
 const GREYS: usize = 16;
 
+/// Colours of a scale that is shaded, and how many shades of each.
+const SHADED: usize = 48;
+const SHADES: usize = 5;
+
 /// The colours of the pictures of one scale.
 pub struct Palette {
     colours: Vec<[u8; 3]>,
@@ -22,6 +26,20 @@ impl Palette {
         let greys = (0..GREYS).map(|step| [(34 + step * 221 / (GREYS - 1)) as u8; 3]);
         Self {
             colours: scale.chain(greys).collect(),
+            known: HashMap::new(),
+        }
+    }
+
+    /// With shades of the colours of the scale down to this brightness, fewer of them.
+    pub fn shaded(scale: &Scale, darkest: f64) -> Self {
+        let tone = |number: usize| {
+            let colour = (scale.colour)((number / SHADES) as f64 / (SHADED - 1) as f64);
+            let bright = 1.0 - (1.0 - darkest) * (number % SHADES) as f64 / (SHADES - 1) as f64;
+            colour.map(|tone| (f64::from(tone) * bright).round() as u8)
+        };
+        let greys = Self::of(scale).colours.split_off(SCALE);
+        Self {
+            colours: (0..SHADED * SHADES).map(tone).chain(greys).collect(),
             known: HashMap::new(),
         }
     }

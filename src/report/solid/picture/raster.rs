@@ -2,51 +2,15 @@
 
 use std::ops::Range;
 
+use super::view::View;
 use crate::record::frames::FieldMesh;
-
-/// How a solid is seen.
-pub struct View {
-    /// Axes to the right, upwards, and towards who looks.
-    axes: [usize; 3],
-    /// To the right and upwards, nm.
-    pub ranges: [Range<f64>; 2],
-}
-
-impl View {
-    /// Along the shortest side of the reference places, so that all places are seen with a margin around them.
-    pub fn of(reference: &[[f64; 3]], places: &[[f64; 3]], margin: f64) -> Self {
-        let range = |points: &[[f64; 3]], axis: usize| {
-            let along = || points.iter().map(|point| point[axis]).filter(|place| place.is_finite());
-            along().fold(f64::INFINITY, f64::min)..along().fold(f64::NEG_INFINITY, f64::max)
-        };
-        let length = |axis: &usize| {
-            let range = range(reference, *axis);
-            range.end - range.start
-        };
-        let shortest = (0..3).min_by(|a, b| length(a).total_cmp(&length(b))).unwrap_or(2);
-        // Right-handed: z towards who looks shows x and y.
-        let mut axes = [(shortest + 1) % 3, (shortest + 2) % 3, shortest];
-        if length(&axes[1]) > length(&axes[0]) && shortest != 2 {
-            axes.swap(0, 1);
-        }
-        let ranges = [axes[0], axes[1]].map(|axis| {
-            let range = range(places, axis);
-            range.start - margin..range.end + margin
-        });
-        Self { axes, ranges }
-    }
-
-    pub fn names(&self) -> [&'static str; 2] {
-        [self.axes[0], self.axes[1]].map(|axis| ["x (nm)", "y (nm)", "z (nm)"][axis])
-    }
-}
 
 /// Faces of cells by the places of their corners.
 const TETRAHEDRON: [&[usize]; 4] = [&[0, 1, 2], &[0, 1, 3], &[0, 2, 3], &[1, 2, 3]];
 const PYRAMID: [&[usize]; 6] = [&[0, 1, 2], &[0, 2, 3], &[0, 1, 4], &[1, 2, 4], &[2, 3, 4], &[3, 0, 4]];
 
 /// How bright a face is that is seen from its edge.
-const DARKEST: f64 = 0.55;
+pub const DARKEST: f64 = 0.55;
 
 pub struct Raster<'a> {
     view: &'a View,
@@ -66,11 +30,15 @@ impl<'a> Raster<'a> {
         }
     }
 
-    /// All cells of a mesh, with its nodes at these places and each cell in its colour; atoms are discs of a radius, nm.
-    pub fn paint(&mut self, mesh: &FieldMesh<[f64; 3]>, places: &[[f64; 3]], colours: &[[u8; 3]], radius: f64) {
-        for (ends, &colour) in mesh.offsets.windows(2).zip(colours) {
+    /// The cells of a mesh that have a colour, with its nodes at these places; atoms are discs of a radius, nm.
+    pub fn paint(&mut self, mesh: &FieldMesh<[f64; 3]>, places: &[[f64; 3]], colours: &[Option<[u8; 3]>], radius: f64) {
+        let cells = mesh.offsets.windows(2).zip(&mesh.element_size).zip(colours);
+        for ((ends, &size), &colour) in cells {
+            let Some(colour) = colour else { continue };
             let nodes = &mesh.connectivity[ends[0] as usize..ends[1] as usize];
-            let corners: Vec<[f64; 3]> = nodes.iter().map(|&node| self.seen(places[node as usize])).collect();
+            let mut corners: Vec<[f64; 3]> = nodes.iter().map(|&node| places[node as usize]).collect();
+            fill_its_share(&mut corners, f64::from(size));
+            corners.iter_mut().for_each(|corner| *corner = self.seen(*corner));
             let faces: &[&[usize]] = match corners.len() {
                 1 => {
                     self.disc(corners[0], radius, colour);
@@ -92,11 +60,11 @@ impl<'a> Raster<'a> {
 
     /// Pixels to the right and down, and nm towards who looks.
     fn seen(&self, place: [f64; 3]) -> [f64; 3] {
-        let [right, up, near] = self.view.axes;
-        let [across, above] = &self.view.ranges;
-        let x = (place[right] - across.start) / (across.end - across.start) * self.size[0] as f64;
-        let y = (above.end - place[up]) / (above.end - above.start) * self.size[1] as f64;
-        [x, y, place[near]]
+        let [right, above, near] = self.view.seen(place);
+        let [across, up] = &self.view.ranges;
+        let x = (right - across.start) / (across.end - across.start) * self.size[0] as f64;
+        let y = (up.end - above) / (up.end - up.start) * self.size[1] as f64;
+        [x, y, near]
     }
 
     fn set(&mut self, x: usize, y: usize, depth: f64, colour: [u8; 3]) {
@@ -169,6 +137,21 @@ impl<'a> Raster<'a> {
     }
 }
 
+/// The nodes of parts are sites: a tetrahedron of a block of n is n - 2 spacings long, an octahedron, of which a pyramid is a
+/// half, n - 1. Their shares of the crystal are n long, so that nothing is between them but what has opened.
+fn fill_its_share(corners: &mut [[f64; 3]], size: f64) {
+    let (of_middle, edge) = match corners.len() {
+        4 => (4, size - 2.0),
+        5 => (4, size - 1.0),
+        _ => return,
+    };
+    let middle =
+        [0, 1, 2].map(|axis| corners[..of_middle].iter().map(|corner| corner[axis]).sum::<f64>() / of_middle as f64);
+    for corner in corners {
+        (0..3).for_each(|axis| corner[axis] = middle[axis] + (corner[axis] - middle[axis]) * size / edge);
+    }
+}
+
 /// A colour as bright as a face is that looks this much towards who looks, 0 to 1.
 fn shaded(colour: [u8; 3], towards: f64) -> [u8; 3] {
     let bright = DARKEST + (1.0 - DARKEST) * towards;
@@ -183,6 +166,31 @@ mod tests {
     const BLUE: [u8; 3] = [0, 0, 200];
 
     #[test]
+    fn cells_side_by_side_leave_no_gap_and_those_that_are_hidden_show_what_is_behind() {
+        // A square pyramid of a block of five, four spacings long, and the same below it, hidden.
+        let base = [[0.0, 0.0], [4.0, 0.0], [4.0, 4.0], [0.0, 4.0]];
+        let pyramid = |low: f64| {
+            base.map(|[x, y]| [x, y, low])
+                .into_iter()
+                .chain([[2.0, 2.0, low - 3.0]])
+        };
+        let mesh = FieldMesh {
+            points: pyramid(0.0).chain(pyramid(1.0)).collect(),
+            connectivity: (0..10).collect(),
+            offsets: vec![0, 5, 10],
+            element_size: vec![5, 5],
+        };
+        let view = View::from_above(&mesh.points, &mesh.points, 1.0);
+        let mut raster = Raster::new(&view, [60, 60]);
+        raster.paint(&mesh, &mesh.points, &[Some(RED), None], 0.5);
+        let pixels = raster.pixels();
+        let at = |place: f64| pixels[3 * (60 * 30 + ((place + 1.0) * 10.0) as usize)..][..3].to_vec();
+        // Five spacings, half of one beyond the nodes on either side.
+        assert_eq!([at(-0.4), at(4.4)], [RED; 2]);
+        assert_eq!([at(-0.6), at(4.6)], [[255; 3]; 2]);
+    }
+
+    #[test]
     fn what_is_nearer_hides_what_is_farther() {
         // A tetrahedron with a face of two by two below an atom.
         let mesh = FieldMesh {
@@ -195,12 +203,12 @@ mod tests {
             ],
             connectivity: vec![0, 1, 2, 3, 4],
             offsets: vec![0, 4, 5],
-            element_size: vec![6, 1],
+            element_size: vec![600, 1],
         };
-        let view = View::of(&mesh.points, &mesh.points, 1.0);
-        assert_eq!(view.names(), ["x (nm)", "y (nm)"]);
+        let view = View::from_above(&mesh.points, &mesh.points, 1.0);
+        assert_eq!(view.names, ["x (nm)", "y (nm)"]);
         let mut raster = Raster::new(&view, [60, 60]);
-        raster.paint(&mesh, &mesh.points, &[RED, BLUE], 0.5);
+        raster.paint(&mesh, &mesh.points, &[Some(RED), Some(BLUE)], 0.5);
         let pixels = raster.pixels();
         let at = |x: f64, y: f64| {
             let [column, row] = [(x + 1.0) * 10.0, (5.0 - y) * 10.0].map(|place| place as usize);
