@@ -7,23 +7,27 @@ mod overview;
 mod picture;
 mod series;
 pub mod specimen;
+mod surfaces;
 mod tables;
 mod verdict;
 
 pub use series::{Gauge, Series};
-pub use specimen::{Solid, Specimen};
+pub use specimen::{Crystal, Solid, Specimen};
 
 use std::path::Path;
 
 use super::page::Solids;
 use super::{CaseResult, ReportError, Study, save};
 use findings::Findings;
+use surfaces::Surface;
 
 /// A case with what its series says.
 struct Analysed<'a> {
     result: &'a CaseResult,
     solid: &'a Solid,
     findings: Findings,
+    /// One a picture.
+    surfaces: Vec<Surface>,
 }
 
 impl Analysed<'_> {
@@ -33,6 +37,13 @@ impl Analysed<'_> {
 
     fn series(&self) -> Option<&Series> {
         self.solid.series.as_ref()
+    }
+
+    /// Whether anything has opened or slid in its pictures.
+    fn has_parted(&self) -> bool {
+        self.surfaces
+            .iter()
+            .any(|surface| surface.crack() + surface.slip() + surface.areas.elsewhere > 0.0)
     }
 
     /// Its name as part of the name of a file.
@@ -71,12 +82,15 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
         .iter()
         .filter_map(|result| Some((result, result.solid.as_ref()?)));
     let cases: Vec<Analysed> = solids
-        .map(|(result, solid)| Analysed {
-            result,
-            solid,
-            findings: Findings::of(solid),
+        .map(|(result, solid)| {
+            Ok(Analysed {
+                result,
+                solid,
+                findings: Findings::of(solid),
+                surfaces: surfaces::surfaces(solid)?,
+            })
         })
-        .collect();
+        .collect::<Result<_, ReportError>>()?;
     let mut tables = tables::all(&cases)?;
     for table in &mut tables {
         table.write(&folder.join("tables"))?;

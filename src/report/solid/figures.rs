@@ -1,13 +1,24 @@
 //! The line charts of solids.
 
 use super::series::along;
+use super::surfaces::Surface;
 use super::{Analysed, Series};
 use crate::report::chart::{Chart, Content, Curve};
-use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND};
+use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND, PERCENT};
 
 /// Whether a report may have drawn a file of this name.
 pub fn is_of_a_report(name: &str) -> bool {
-    const COMMON: [&str; 5] = ["stress", "broken-bonds", "force", "temperature", "energy-imbalance"];
+    const COMMON: [&str; 9] = [
+        "stress",
+        "broken-bonds",
+        "crack",
+        "front",
+        "slip",
+        "dislocated",
+        "force",
+        "temperature",
+        "energy-imbalance",
+    ];
     let id = name.strip_suffix(".svg").unwrap_or_default();
     COMMON.contains(&id) || id.starts_with("gauges-") || id.starts_with("energy-")
 }
@@ -17,6 +28,10 @@ pub fn charts(cases: &[Analysed]) -> Vec<Chart> {
     let mut charts = vec![
         stress(cases),
         broken(cases),
+        picture_by_picture(cases, &CRACK),
+        picture_by_picture(cases, &FRONT),
+        picture_by_picture(cases, &SLIP),
+        picture_by_picture(cases, &DISLOCATED),
         force(cases),
         temperature(cases),
         imbalance(cases),
@@ -108,6 +123,71 @@ fn broken(cases: &[Analysed]) -> Chart {
             series.broken.iter().map(|broken| broken - start).collect()
         }),
     )
+}
+
+/// What is read of pictures.
+struct OfPictures {
+    id: &'static str,
+    title: &'static str,
+    caption: &'static str,
+    y: &'static str,
+    of: fn(&Surface) -> Option<f64>,
+}
+
+const CRACK: OfPictures = OfPictures {
+    id: "crack",
+    title: "Area of the crack",
+    caption: "Faces of elements and bonds of atoms that have opened and hang together with the notch, or with each other where \
+              there is none.",
+    y: "crack (nm²)",
+    of: |surface| Some(surface.crack()),
+};
+
+const FRONT: OfPictures = OfPictures {
+    id: "front",
+    title: "Front of the crack",
+    caption: "How far the crack has come from the notch, as the mean over strips along its front.",
+    y: "front (nm)",
+    of: |surface| Some(surface.front()?[0]),
+};
+
+const SLIP: OfPictures = OfPictures {
+    id: "slip",
+    title: "Area of slip",
+    caption: "Faces and bonds whose sides have moved along each other by more than half a partial dislocation, and touch.",
+    y: "slip (nm²)",
+    of: |surface| Some(surface.slip()),
+};
+
+const DISLOCATED: OfPictures = OfPictures {
+    id: "dislocated",
+    title: "Dislocated atoms",
+    caption: "Atoms in stacking faults and cores of dislocations, by centrosymmetry; of cases of atoms alone.",
+    y: "dislocated atoms",
+    of: |surface| Some(surface.atoms?.dislocated as f64),
+};
+
+fn picture_by_picture(cases: &[Analysed], chart: &OfPictures) -> Chart {
+    let (by_strain, _) = abscissa(cases);
+    let point = |surface: &Surface| {
+        let x = if by_strain {
+            PERCENT * surface.strain?
+        } else {
+            surface.time
+        };
+        Some((x, (chart.of)(surface)?))
+    };
+    let curve = |(style, case): (usize, &Analysed)| Curve {
+        label: case.name().to_owned(),
+        style,
+        points: case.surfaces.iter().filter_map(point).collect(),
+        ..Curve::default()
+    };
+    let content = Content::Curves(cases.iter().enumerate().map(curve).collect());
+    Chart {
+        table: "surfaces",
+        ..self::chart(cases, chart.id, chart.title, chart.caption, chart.y, content)
+    }
 }
 
 fn force(cases: &[Analysed]) -> Chart {

@@ -23,6 +23,34 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 .to_owned(),
         ),
         (
+            "Crack and slip",
+            "A border between two elements along a face has opened when the middles of its faces are so far apart that an even \
+             opening would break all bonds, and slid when they have moved along each other by half a partial dislocation, \
+             r0/√12. A broken bond of atoms belongs to a crack when its two atoms have lost four neighbours or more between them, \
+             and to slip otherwise. Areas are those in the crystal: √3/2 of a squared spacing a site, √3/4 of a squared edge \
+             between two blocks. The crack is what has opened and hangs together with the notch. Planes are named by the axis that \
+             they cross; the fourth holds a1 - a2 and a2 - a3."
+                .to_owned(),
+        ),
+        (
+            "Front",
+            "For each strip of ten spacings along the front of the notch the farthest piece of the crack, as its distance from the \
+             notch; the speed is that between two pictures, normal to the front."
+                .to_owned(),
+        ),
+        (
+            "Cracks that keep a direction",
+            "From a notch those that go on at 60° to its plane, within 5°, over 10 nm without a gap; from a ball those that are 0.4 \
+             as long as the longest or more, 30° apart or more, with a dip between them; 0° is x."
+                .to_owned(),
+        ),
+        (
+            "Dislocated atoms",
+            "Of the atoms with twelve atoms as neighbours at rest those whose centrosymmetry [Kelchner1998] exceeds a quarter of \
+             that in a stacking fault while they have eleven neighbours or more within 1.207 spacings."
+                .to_owned(),
+        ),
+        (
             "Modulus",
             "Least squares of stress over strain up to 1 % strain or the first change of bonds; the waves of a loading from rest \
              are in it."

@@ -1,10 +1,11 @@
 //! Solids side by side: what differs, what it costs, what came out, how far from the finest.
 
 use super::findings::{Moment, distance};
+use super::surfaces::kept;
 use super::{Analysed, reference};
 use crate::report::numbers::{ABSENT, count, signed_percent, significant, whole};
 use crate::report::overview::{Group, Row, differing};
-use crate::report::units::{GIGAPASCAL, PERCENT};
+use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND, PERCENT};
 use crate::units::amounts::duration;
 
 /// Stands where a case is measured against itself.
@@ -100,6 +101,32 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "borders of elements open at the end", |case| {
             let open = case.series()?.open_interfaces.last().copied()?;
             (case.solid.specimen.elements > case.solid.specimen.atoms_alone).then(|| count(open as u64))
+        }),
+        row(cases, "crack at the end (nm²)", |case| {
+            Some(three(case.surfaces.last()?.crack())).filter(|_| case.has_parted())
+        }),
+        row(cases, "slip at the end (nm²)", |case| {
+            Some(three(case.surfaces.last()?.slip())).filter(|_| case.has_parted())
+        }),
+        row(cases, "front at the end (nm)", |case| {
+            let [mean, least, most] = case.surfaces.last()?.front()?;
+            (most > 0.0).then(|| format!("{} ({} to {})", three(mean), three(least), three(most)))
+        }),
+        row(cases, "fastest front (m/s)", |case| {
+            let speeds = case.surfaces.iter().filter_map(|surface| surface.speed);
+            let fastest = speeds.max_by(f64::total_cmp).filter(|&speed| speed > 0.0)?;
+            Some(three(fastest * METRE_PER_SECOND))
+        }),
+        row(cases, "cracks that keep a direction", |case| {
+            let kept = kept(&case.surfaces);
+            let told: Vec<String> = kept
+                .iter()
+                .map(|crack| format!("{}°", significant(crack.degrees, 2)))
+                .collect();
+            (!told.is_empty()).then(|| told.join(", "))
+        }),
+        row(cases, "dislocated atoms at the end", |case| {
+            Some(count(case.surfaces.last()?.atoms?.dislocated))
         }),
         row(cases, "period (ps)", |case| {
             let (period, seen) = case.findings.period?;

@@ -1,6 +1,7 @@
 //! What the report knows of a case of a solid.
 
 use super::series::Series;
+use crate::mesh::solid::Plan;
 use crate::report::Film;
 
 /// What a case of a solid has beside what any case has.
@@ -11,6 +12,18 @@ pub struct Solid {
     pub series: Option<Series>,
     /// The pictures that the run took.
     pub film: Option<Film<[f64; 3]>>,
+    /// `None` where nobody has laid it out.
+    pub crystal: Option<Crystal>,
+}
+
+/// What tells which bonds and faces a solid has, and when they have parted.
+#[derive(Clone, Debug)]
+pub struct Crystal {
+    pub plan: Plan,
+    /// Distance beyond which a bond of nearest neighbours is broken, nm.
+    pub breaking_length: f64,
+    /// Where a ball strikes, nm, and the normal of the face there.
+    pub struck: Option<[[f64; 3]; 2]>,
 }
 
 /// A solid as it is laid out; in words where the page shows words.

@@ -1,5 +1,7 @@
 //! The tables of solids.
 
+mod surfaces;
+
 use polars::prelude::Column;
 
 use super::findings::Moment;
@@ -15,6 +17,8 @@ pub fn all(cases: &[Analysed]) -> Result<Vec<Table>, ReportError> {
         ("summary", summary(cases)),
         ("specimen", specimen(cases)),
         ("speed_against_error", speed_against_error(cases)),
+        ("directions", surfaces::directions(cases)),
+        ("surfaces", surfaces::surfaces(cases)),
         ("series", series(cases)),
         ("gauges", gauges(cases)),
         ("cost", cost(cases)),

@@ -157,22 +157,13 @@ impl Setup<'_> {
             } => {
                 let (_, sites) = Carried::of_solid(self.mesh, |site| self.laid.is_on(site, face));
                 let outward = self.laid.outward(face);
-                let start = center.unwrap_or_else(|| self.before(face, radius + gap));
+                let start = center.unwrap_or_else(|| self.laid.before(face, radius + gap));
                 let curvature = self.material.interaction.curvature(self.material.spacing);
                 let stiffness = CONTACT * curvature / self.material.spacing;
                 let velocity = outward.map(|part| -part * speed);
                 loading(Box::new(Ball::new(sites, [radius, stiffness], [start, velocity])))
             }
         })
-    }
-
-    /// The place so far before the middle of a face, nm. Blocks begin with the middle of their first site.
-    fn before(&self, face: Face, distance: f64) -> [f64; 3] {
-        let sum = |axis: usize| self.laid.edges.iter().map(|edge| edge[axis]).sum::<f64>();
-        let middle = [0, 1, 2].map(|axis| 0.5 * (sum(axis) - self.laid.first_cell()[axis]));
-        let outward = self.laid.outward(face);
-        let half = 0.5 * (self.laid.thickness(face.axis) - self.laid.depth_of_a_layer(face.axis));
-        [0, 1, 2].map(|axis| middle[axis] + (half + distance) * outward[axis])
     }
 
     /// Force per area on the outermost sites of a face, as a force a site.

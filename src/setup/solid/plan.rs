@@ -200,6 +200,15 @@ impl Laid {
         }
     }
 
+    /// The place so far before the middle of a face, nm. Blocks begin with the middle of their first site.
+    pub fn before(&self, face: Face, distance: f64) -> [f64; 3] {
+        let sum = |axis: usize| self.edges.iter().map(|edge| edge[axis]).sum::<f64>();
+        let middle = [0, 1, 2].map(|axis| 0.5 * (sum(axis) - self.first_cell()[axis]));
+        let outward = self.outward(face);
+        let half = 0.5 * (self.thickness(face.axis) - self.depth_of_a_layer(face.axis));
+        [0, 1, 2].map(|axis| middle[axis] + (half + distance) * outward[axis])
+    }
+
     /// Area of a face over the sites on it, nm^2. Of blocks each site has a cell, whatever a slot has taken of the face.
     pub fn area_of_a_site(&self, axis: Axis, sites: usize) -> f64 {
         match &self.plan.sites.outline {

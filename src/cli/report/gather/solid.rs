@@ -5,10 +5,11 @@ use std::path::Path;
 use crate::analysis::columns::{Columns, SolidSetting};
 use crate::cli::specimen::solid::{kinds, notch};
 use crate::record::{self, FIELDS_FILE, RecordError, SERIES_FILE};
-use crate::report::solid::{Gauge, Series, Specimen};
+use crate::report::solid::{Crystal, Gauge, Series, Specimen};
 use crate::report::{CaseResult, Film};
-use crate::setup::solid::{LOADING, Specimen as Laid, gauge_name, material};
+use crate::setup::solid::{LOADING, Specimen as Laid, gauge_name, lay_out, material};
 use crate::study::case::Solid;
+use crate::study::case::solid::Loading;
 
 /// Tells of the specimen of a solid.
 pub fn tell(result: &mut CaseResult, laid: &Laid) {
@@ -40,12 +41,29 @@ pub fn read(result: &mut CaseResult, solid: &Solid, folder: &Path, with_film: bo
     let (setting, columns) = record::read_series::<SolidSetting>(&folder.join(SERIES_FILE))?;
     let told = result.solid.get_or_insert_default();
     told.series = Some(series(solid, &setting, &columns));
+    told.crystal = crystal(solid);
     let fields = folder.join(FIELDS_FILE);
     if with_film && fields.exists() {
         let (mesh, frames) = record::read_fields(&fields)?;
         told.film = Some(Film::stored(mesh, frames));
     }
     Ok(())
+}
+
+fn crystal(solid: &Solid) -> Option<Crystal> {
+    let material = material(solid).ok()?;
+    let laid = lay_out(solid, material.spacing).ok()?;
+    let struck = match solid.loading {
+        Loading::Impact { face, center, .. } => {
+            Some([center.unwrap_or_else(|| laid.before(face, 0.0)), laid.outward(face)])
+        }
+        _ => None,
+    };
+    Some(Crystal {
+        struck,
+        breaking_length: material.breaking_length(),
+        plan: laid.plan,
+    })
 }
 
 fn series(solid: &Solid, setting: &SolidSetting, columns: &Columns) -> Series {
