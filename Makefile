@@ -6,10 +6,12 @@ TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
 MPI_PACKAGES = libopenmpi-dev openmpi-bin $(shell .ci/libclang)
 # The studies of chapter 5 of Deng (2011).
 CHAPTER_5 = models-A-E models-A-E-fine models-A-E-mixed models-A-E-atoms case-1 case-2 branching-control convergence-D
+# Those of chapter 6, in elements; the cases with atoms take far longer and are run by name.
+CHAPTER_6 = film-3d mixed-mode impact crack-surface
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test verify wrong-formulas bench speed-against-error chapter-5 $(CHAPTER_5) scaling check lint schema setup test-setup install
+.PHONY: help quickstart build test verify wrong-formulas bench speed-against-error chapter-5 $(CHAPTER_5) chapter-6 $(CHAPTER_6) scaling check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
@@ -21,6 +23,7 @@ help:
 	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
 	@echo 'make models-A-E   models A to E of Deng (2011) at full size; writes reports/models-A-E'
 	@echo 'make chapter-5    the same, then in small elements, mixed, in atoms (D alone), cases 1 and 2, branching-control and convergence-D, each also by its name'
+	@echo 'make chapter-6    the film, the film under mixed load, the plate under a ball and the block of chapter 6 in elements, each also by its name; ONLY= for all cases, also those with atoms'
 	@echo 'make scaling      what ranks gain here, and what more of them would; writes reports/scaling-fixed and reports/scaling-scaled'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin), with their man pages'
@@ -71,6 +74,14 @@ speed-against-error: build
 chapter-5: $(CHAPTER_5)
 models-A-E-atoms: ONLY = --only D
 $(CHAPTER_5): build
+	$(TARGET)/release/cgaft study run studies/$@.yaml $(ONLY) --results $(TARGET)/results
+	reports/keep $(TARGET)/results/$@
+
+chapter-6: $(CHAPTER_6)
+film-3d: ONLY = --only 'elements*,mixed'
+mixed-mode: ONLY = --only elements,counted,opened
+impact: ONLY = --only 'heavy,free-heavy,copper,free,tenth,tenth-slow'
+$(CHAPTER_6): build
 	$(TARGET)/release/cgaft study run studies/$@.yaml $(ONLY) --results $(TARGET)/results
 	reports/keep $(TARGET)/results/$@
 

@@ -29,7 +29,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 19] = [
+pub static SHIPPED: [Shipped; 23] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml", "case-1/strains.csv"),
@@ -70,8 +70,12 @@ pub static SHIPPED: [Shipped; 19] = [
     shipped!("wave-bar.yaml"),
     shipped!("film-3d.yaml"),
     shipped!("film-3d-small.yaml"),
-    shipped!("impact-small.yaml"),
+    shipped!("mixed-mode.yaml"),
     shipped!("mixed-mode-small.yaml"),
+    shipped!("impact.yaml"),
+    shipped!("impact-small.yaml"),
+    shipped!("crack-surface.yaml"),
+    shipped!("crack-surface-small.yaml"),
 ];
 
 /// Largest file that is read, in bytes; a study of a thousand cases is a hundredth of it.

@@ -1,6 +1,7 @@
 //! Studies from the file to the report, with the real programs.
 
 mod beside;
+mod chapter_6;
 mod checkpoint;
 mod cost;
 mod damage;

@@ -20,6 +20,9 @@ pub struct Branch {
     pub length: f64,
 }
 
+/// The bin of a piece along a strip, and its place.
+type InBin = (i64, [f64; 2]);
+
 /// The longest stretch in each of these directions, none of them straight ahead, that is long enough to count.
 ///
 /// Seen along the front, a branch is a row of pieces without a gap in a strip: as wide as the larger of its blocks, and as the
@@ -45,7 +48,7 @@ pub fn branches(parted: &[Parted], is_crack: &[bool], directions: &Directions, d
         .collect();
     let of_direction = |&degrees: &f64| {
         let (sine, cosine) = degrees.to_radians().sin_cos();
-        let mut rows: BTreeMap<(usize, i64), Vec<(i64, [f64; 2])>> = BTreeMap::new();
+        let mut rows: BTreeMap<(usize, i64), Vec<InBin>> = BTreeMap::new();
         for &[ahead, up] in &places {
             let [far, aside] = [ahead * cosine + up * sine, up * cosine - ahead * sine];
             // Strips at two offsets, so that none is cut by the border of both.
@@ -65,7 +68,7 @@ pub fn branches(parted: &[Parted], is_crack: &[bool], directions: &Directions, d
 }
 
 /// How many bins in a row are taken at most, and the place in the first of them.
-fn longest_run(mut places: Vec<(i64, [f64; 2])>) -> Option<(i64, [f64; 2])> {
+fn longest_run(mut places: Vec<InBin>) -> Option<(i64, [f64; 2])> {
     places.sort_by_key(|place| place.0);
     let runs = places.chunk_by(|a, b| b.0 - a.0 <= 1);
     let runs = runs.map(|run| (run[run.len() - 1].0 - run[0].0 + 1, run[0].1));

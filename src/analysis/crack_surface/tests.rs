@@ -16,6 +16,7 @@ const EXTENT: [i32; 3] = [18, 24, 12];
 /// Distance of {111} planes, spacings.
 const LAYER: f64 = 0.816_496_580_927_726;
 
+/// Beyond which a bond is broken, spacings.
 const BREAKING: f64 = 1.33;
 
 fn mesh(element: u16, slot: Option<Range3>, atoms_between: Option<[f64; 2]>) -> Solid {

@@ -172,7 +172,7 @@ mod tests {
         let pyramid = |low: f64| {
             base.map(|[x, y]| [x, y, low])
                 .into_iter()
-                .chain([[2.0, 2.0, low - 3.0]])
+                .chain([[2.0, 2.0, low - 0.5]])
         };
         let mesh = FieldMesh {
             points: pyramid(0.0).chain(pyramid(1.0)).collect(),
