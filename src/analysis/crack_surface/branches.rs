@@ -1,15 +1,15 @@
-//! Branches of a crack along the slip planes that lean out of the plane of its notch.
+//! Stretches of a crack, or of slip, along planes that lean out of the plane of the notch.
 
 use std::collections::BTreeMap;
 
 use super::Parted;
 use super::front::Directions;
 
-/// A branch holds its direction over this length, nm, within so many degrees.
+/// It holds its direction over this length, nm, within so many degrees.
 pub const HELD_OVER: f64 = 10.0;
 pub const WITHIN_DEGREES: f64 = 5.0;
 
-/// A stretch of a crack that keeps one direction.
+/// A stretch that keeps one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Branch {
     /// Between the direction ahead of the notch and its own, degrees, positive upwards.
@@ -23,16 +23,14 @@ pub struct Branch {
 /// The bin of a piece along a strip, and its place.
 type InBin = (i64, [f64; 2]);
 
-/// The longest stretch in each of these directions, none of them straight ahead, that is long enough to count.
+/// Of the pieces that are wanted the longest stretch in each of these directions that is long enough to count. None of the
+/// directions is straight ahead.
 ///
 /// Seen along the front, a branch is a row of pieces without a gap in a strip: as wide as the larger of its blocks, and as the
 /// way off that it may go within its degrees.
-pub fn branches(parted: &[Parted], is_crack: &[bool], directions: &Directions, degrees: &[f64]) -> Vec<Branch> {
-    let pieces = parted
-        .iter()
-        .zip(is_crack)
-        .filter(|(_, is_crack)| **is_crack)
-        .map(|(piece, _)| piece);
+pub fn branches(parted: &[Parted], is_wanted: &[bool], directions: &Directions, degrees: &[f64]) -> Vec<Branch> {
+    let pieces = parted.iter().zip(is_wanted);
+    let pieces = pieces.filter(|(_, is_wanted)| **is_wanted).map(|(piece, _)| piece);
     let size = pieces.clone().map(|piece| piece.size).max().unwrap_or(1);
     // The edge of a block whose faces have this area.
     let edge = pieces

@@ -39,8 +39,8 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 .to_owned(),
         ),
         (
-            "Cracks that keep a direction",
-            "From a notch those that go on at 60° to its plane, within 5°, over 10 nm without a gap; from a ball those that are 0.4 \
+            "What keeps a direction",
+            "Branches of the crack from a notch and bands of slip that go on at 60° to its plane, within 5°, over 10 nm without a gap; cracks from a ball that are 0.4 \
              as long as the longest or more, 30° apart or more, with a dip between them; 0° is x."
                 .to_owned(),
         ),

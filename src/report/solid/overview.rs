@@ -117,11 +117,11 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
             let fastest = speeds.max_by(f64::total_cmp).filter(|&speed| speed > 0.0)?;
             Some(three(fastest * METRE_PER_SECOND))
         }),
-        row(cases, "cracks that keep a direction", |case| {
+        row(cases, "what keeps a direction", |case| {
             let kept = kept(&case.surfaces);
             let told: Vec<String> = kept
                 .iter()
-                .map(|crack| format!("{}°", significant(crack.degrees, 2)))
+                .map(|kept| format!("{} {}°", kept.kind, significant(kept.degrees, 2)))
                 .collect();
             (!told.is_empty()).then(|| told.join(", "))
         }),

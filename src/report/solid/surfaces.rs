@@ -7,7 +7,7 @@ use crate::analysis::crack_surface::branches::{Branch, branches};
 use crate::analysis::crack_surface::dislocated::{Counts, counts};
 use crate::analysis::crack_surface::front::{Directions, front, normal_speed, roughness};
 use crate::analysis::crack_surface::grown::{Root, grown};
-use crate::analysis::crack_surface::{Areas, Joints};
+use crate::analysis::crack_surface::{Areas, How, Joints};
 use crate::mesh::solid::Solid as Mesh;
 use crate::mesh::solid::bonds::Bonds;
 use crate::report::{Film, ReportError};
@@ -33,6 +33,8 @@ pub struct Surface {
     /// Root of the mean square height of the surface, near its sides and in its middle.
     pub roughness: [Option<f64>; 2],
     pub branches: Vec<Branch>,
+    /// Slip along the same directions.
+    pub slip_bands: Vec<Branch>,
     /// Cracks from where a ball has struck.
     pub arms: Vec<Arm>,
     /// Of solids with atoms alone.
@@ -107,6 +109,8 @@ impl<'a> Look<'a> {
             surface.front = front(&parted, &is_crack, &self.root, directions, strips as usize);
             surface.roughness = roughness(&parted, &is_crack, directions);
             surface.branches = branches(&parted, &is_crack, directions, &BRANCHES);
+            let is_slip: Vec<bool> = parted.iter().map(|piece| piece.how == How::Slid).collect();
+            surface.slip_bands = branches(&parted, &is_slip, directions, &BRANCHES);
         }
         if let Some([struck, normal]) = self.crystal.struck {
             surface.arms = arms(&parted, &is_crack, struck, normal);
@@ -133,7 +137,7 @@ impl Surface {
     }
 }
 
-/// A crack that keeps its direction: a branch from the crack of a notch, or one from where a ball has struck.
+/// What keeps its direction: a branch of the crack from a notch, a band of slip, or a crack from where a ball has struck.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Kept {
     pub kind: &'static str,
@@ -148,24 +152,40 @@ pub struct Kept {
     pub speed: Option<f64>,
 }
 
+/// What is looked for from a notch.
+type Kind = (&'static str, fn(&Surface) -> &Vec<Branch>);
+const KINDS: [Kind; 2] = [
+    ("branch", |surface| &surface.branches),
+    ("slip band", |surface| &surface.slip_bands),
+];
+
 /// Two sightings of a crack are within this of each other, degrees.
 const SAME: f64 = 20.0;
 
 /// What keeps its direction at the end, each with its past.
 pub fn kept(surfaces: &[Surface]) -> Vec<Kept> {
     let Some(last) = surfaces.last() else { return Vec::new() };
-    let branches = last.branches.iter().filter_map(|branch| {
-        let same = |surface: &&Surface| surface.branches.iter().any(|other| other.degrees == branch.degrees);
-        let first = surfaces.iter().find(same)?;
-        let then = first.branches.iter().find(|other| other.degrees == branch.degrees)?;
-        Some(Kept {
-            kind: "branch",
-            time: first.time,
-            degrees: branch.degrees,
-            start: Some(then.start),
-            length: branch.length,
-            speed: pace([first.time, then.length], [last.time, branch.length]),
-        })
+    let [branches, slips] = KINDS.map(|(kind, of)| {
+        let kept = of(last).iter().filter_map(move |branch| {
+            let same = |surface: &Surface| {
+                of(surface)
+                    .iter()
+                    .find(|other| other.degrees == branch.degrees)
+                    .copied()
+            };
+            let (time, first) = surfaces
+                .iter()
+                .find_map(|surface| Some((surface.time, same(surface)?)))?;
+            Some(Kept {
+                kind,
+                time,
+                degrees: branch.degrees,
+                start: Some(first.start),
+                length: branch.length,
+                speed: pace([time, first.length], [last.time, branch.length]),
+            })
+        });
+        kept.collect::<Vec<_>>()
     });
     let arms = last.arms.iter().filter_map(|arm| {
         let is_same = |other: &&Arm| {
@@ -185,7 +205,7 @@ pub fn kept(surfaces: &[Surface]) -> Vec<Kept> {
             speed: pace([first.time, then.length], [last.time, arm.length]),
         })
     });
-    branches.chain(arms).collect()
+    branches.into_iter().chain(slips).chain(arms).collect()
 }
 
 fn pace([then, from]: [f64; 2], [now, to]: [f64; 2]) -> Option<f64> {

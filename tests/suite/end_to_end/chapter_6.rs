@@ -100,7 +100,9 @@ fn a_film_runs_as_jobs_of_a_cluster_to_the_same_bytes() {
     let [here, cluster] = &places;
     here.cgaft("run", &["--only", "elements"]).succeeded();
     let [bin, slurm] = ["bin", "slurm"].map(|name| cluster.path(name));
-    [&bin, &slurm].map(|folder| fs::create_dir(folder).unwrap());
+    for folder in [&bin, &slurm] {
+        fs::create_dir(folder).unwrap();
+    }
     let fake = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/suite/fake-slurm.sh");
     for name in ["sbatch", "squeue", "scancel", "scontrol", "sacct"] {
         symlink(&fake, bin.join(name)).unwrap();

@@ -46,7 +46,7 @@ pub fn surfaces(cases: &[Analysed]) -> Vec<Column> {
     ]
 }
 
-/// A row for each crack that keeps its direction.
+/// A row for each crack and each band of slip that keeps its direction.
 pub fn directions(cases: &[Analysed]) -> Vec<Column> {
     let found = cases
         .iter()
@@ -55,7 +55,7 @@ pub fn directions(cases: &[Analysed]) -> Vec<Column> {
     let start = |part: usize| move |row: &(&Analysed, Kept)| Some(row.1.start?[part]);
     vec![
         rows.text("case", |row| row.0.name()),
-        rows.text("crack", |row| row.1.kind),
+        rows.text("what", |row| row.1.kind),
         rows.number("degrees", |row| row.1.degrees),
         rows.number("first_seen_ps", |row| row.1.time),
         rows.number("starts_ahead_nm", start(0)),
