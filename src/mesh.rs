@@ -9,6 +9,7 @@ pub mod grouped;
 pub mod groups;
 pub mod interfaces;
 mod owners;
+mod refined;
 pub mod region;
 pub mod sites;
 pub mod solid;
@@ -75,21 +76,23 @@ impl Mesh {
         let mut breaks = vec![0, plan.grip_rows, middle, sites.rows() - plan.grip_rows, sites.rows()];
         breaks.sort_unstable();
         breaks.dedup();
-        let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
+        let elements = tiling::tile(&sites, region::target_sizes(plan, &sites), &breaks);
+        Self::of(sites, elements, plan.spacing, plan.grip_rows).with_crack(plan.crack)
+    }
+
+    /// The mesh of elements that hold every site once, in their order, without a crack.
+    fn of(sites: SiteSet, elements: Vec<Element>, spacing: f64, grip_rows: i32) -> Self {
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
-        let owners = Owners::new(&sites, &elements, triangles);
-        let groups = Groups::new(&elements[..triangles]);
-        let mesh = Self {
+        Self {
+            owners: Owners::new(&sites, &elements, triangles),
+            groups: Groups::new(&elements[..triangles]),
             sites,
             elements,
             triangles,
-            groups,
-            owners,
             cut: None,
-            spacing: plan.spacing,
-            grip_rows: plan.grip_rows,
-        };
-        mesh.with_crack(plan.crack)
+            spacing,
+            grip_rows,
+        }
     }
 
     /// The same elements with this crack: none of them minds it.
@@ -212,29 +215,6 @@ impl Mesh {
             0
         }
     }
-}
-
-/// The largest element size allowed at every site.
-fn target_sizes(plan: &Plan, sites: &SiteSet) -> Vec<u16> {
-    if plan.regions.is_empty() {
-        return vec![plan.element; sites.len()];
-    }
-    let left = sites.left();
-    let middle = (f64::from(sites.middle_row()) - 0.5) * triangular::ROW_HEIGHT;
-    let size = |site: [i32; 2]| {
-        let [x, y] = triangular::position(site);
-        let place = [(x - left) * plan.spacing, (y - middle) * plan.spacing];
-        let finer = plan
-            .regions
-            .iter()
-            .filter(|region| region.shape.contains(place))
-            .map(|region| region.element);
-        finer
-            .chain([plan.element])
-            .min()
-            .expect("the specimen's own size is there")
-    };
-    sites.iter().map(size).collect()
 }
 
 impl Grouped for Mesh {
