@@ -118,7 +118,7 @@ fn gallery(title: &str, wanted: &[Wanted], folder: &Path) -> Result<Gallery, Rep
     let mut top = 0.0;
     for picture in wanted {
         let frame = picture.film.frame(picture.frame)?;
-        top = f64::max(top, quantile(&values(picture.case, &picture.film.mesh, &frame)));
+        top = f64::max(top, quantile(&values(picture.case, picture.film.cells(&frame), &frame)));
     }
     let limit = scale_end(top);
     let pictures = wanted.iter().map(|picture| picture.draw(limit, folder));
@@ -144,7 +144,7 @@ fn gallery(title: &str, wanted: &[Wanted], folder: &Path) -> Result<Gallery, Rep
 impl Wanted<'_> {
     fn draw(&self, limit: f64, folder: &Path) -> Result<Picture, ReportError> {
         let frame = self.film.frame(self.frame)?;
-        let mesh = &self.film.mesh;
+        let mesh = self.film.cells(&frame);
         let scale = Scale {
             label: if is_pulled(self.case) {
                 "stress (GPa)"
