@@ -52,15 +52,13 @@ impl Parts {
         grid.new_attr_builder().with_data(&[2_i64, 0]).create("Version")?;
         let kind = FixedAscii::<16>::from_ascii("UnstructuredGrid").map_err(|cause| cause.to_string())?;
         grid.new_attr::<FixedAscii<16>>().create("Type")?.write_scalar(&kind)?;
-        let counts: [(&str, fn(&Sizes) -> usize); 3] = [
-            ("NumberOfPoints", |sizes| sizes.points),
-            ("NumberOfCells", |sizes| sizes.cells),
-            ("NumberOfConnectivityIds", |sizes| sizes.connectivity),
-        ];
-        for (name, of) in counts {
+        let count = |name: &str, of: fn(&Sizes) -> usize| {
             let counts: Vec<i64> = sizes.iter().map(|sizes| of(sizes) as i64).collect();
-            put(grid, name, "1", &[counts.len()], &counts, Packing::Plain)?;
-        }
+            put(grid, name, "1", &[counts.len()], &counts, Packing::Plain)
+        };
+        count("NumberOfPoints", |sizes| sizes.points)?;
+        count("NumberOfCells", |sizes| sizes.cells)?;
+        count("NumberOfConnectivityIds", |sizes| sizes.connectivity)?;
         let all = Sizes::sum(sizes);
         Ok(Self {
             points: Packed::create(grid, "Points", "nm", &[all.points, 3])?,

@@ -59,9 +59,9 @@ impl Refinement {
     }
 
     /// Adds to some triangles of the mesh of the start those that they border on, layer by layer.
-    fn add_layers(&self, among: &mut Vec<bool>, layers: u32) {
+    fn add_layers(&self, among: &mut [bool], layers: u32) {
         for _ in 0..layers {
-            let inner = among.clone();
+            let inner = among.to_vec();
             for both in self
                 .neighbours
                 .iter()

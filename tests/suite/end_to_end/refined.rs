@@ -21,7 +21,10 @@ fn computed(study: &str) -> (Workspace, PathBuf, PathBuf) {
     fs::copy(run.join("case.yaml"), &case).unwrap();
     let rows = table(&place.results(), "stress_strain");
     let nodes: Vec<f64> = rows.iter().map(|row| row["nodes"].parse().unwrap()).collect();
-    assert!(nodes.windows(2).filter(|pair| pair[0] < pair[1]).count() > 1, "{nodes:?}");
+    assert!(
+        nodes.windows(2).filter(|pair| pair[0] < pair[1]).count() > 1,
+        "{nodes:?}"
+    );
     (place, run, case)
 }
 
@@ -64,5 +67,8 @@ fn what_becomes_atoms_is_told_before_anything_is_computed() {
     let place = Workspace::with(&STUDY.replace(COARSE, REFINED));
     let said = place.cgaft("check", &[]).succeeded();
     let both = said.stdout + &said.stderr;
-    assert!(both.contains("elements become atoms along the way of the crack"), "{both}");
+    assert!(
+        both.contains("elements become atoms along the way of the crack"),
+        "{both}"
+    );
 }
