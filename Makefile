@@ -5,7 +5,7 @@ TARGET = $(if $(CARGO_TARGET_DIR),$(CARGO_TARGET_DIR),target)
 # What a solver of several ranks is built and started with.
 MPI_PACKAGES = libopenmpi-dev openmpi-bin $(shell .ci/libclang)
 # The studies of chapter 5 of Deng (2011).
-CHAPTER_5 = models-A-E models-A-E-fine models-A-E-mixed models-A-E-atoms case-1 case-2 branching-control convergence-D
+CHAPTER_5 = models-A-E models-A-E-fine models-A-E-mixed models-A-E-refined models-A-E-atoms case-1 case-2 branching-control convergence-D
 # Those of chapter 6, in elements; the cases with atoms take far longer and are run by name.
 CHAPTER_6 = film-3d mixed-mode impact crack-surface
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.

@@ -52,6 +52,7 @@ fn solver(element: u16) -> Solver {
         time_step: TimeStep::Auto { fraction: 0.5 },
         summation: Summation::Exact,
         consistent_mass: 0.0,
+        refine: None,
         relax: false,
         until: Until::default(),
         probe_every: f64::INFINITY,

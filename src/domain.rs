@@ -192,6 +192,11 @@ impl Domain {
         starts[1..].partition_point(|&end| end <= number)
     }
 
+    /// Takes over what has been called in another domain of the same ranks.
+    pub fn hear_after(&mut self, before: &Self) {
+        (self.called, self.heard) = (before.called, before.heard);
+    }
+
     /// Tells something to all ranks when they next agree.
     pub fn call(&mut self, call: Call) {
         self.called |= call as u64;

@@ -18,6 +18,7 @@ mod kinds;
 mod maps;
 mod measure;
 pub mod referee;
+mod refine;
 mod regular;
 mod rows;
 mod share;

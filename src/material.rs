@@ -67,6 +67,16 @@ impl Material {
         lost.sum::<f64>() / self.spacing
     }
 
+    /// Stretch of a bond between nearest neighbours, over its length, from which on it pulls less the longer it is; where that
+    /// never comes, the one at which it breaks.
+    pub fn critical_strain(&self) -> f64 {
+        const LOOKS: i32 = 1000;
+        let breaks = self.breaking_length() / self.spacing - 1.0;
+        let strains = (1..LOOKS).map(|look| breaks * f64::from(look) / f64::from(LOOKS));
+        let softens = |strain: &f64| self.interaction.curvature(self.spacing * (1.0 + strain)) <= 0.0;
+        strains.into_iter().find(softens).unwrap_or(breaks)
+    }
+
     /// Distance beyond which a bond between nearest neighbours counts as broken: the cutoff, or where longer ranges
     /// would hide the break, one and a half spacings.
     pub fn breaking_length(&self) -> f64 {
@@ -137,6 +147,22 @@ mod tests {
             let found = lennard_jones(cutoff).breaking_length();
             assert!((found / expected - 1.0).abs() < PRINTED_DIGITS, "{found} at {cutoff}");
         }
+    }
+
+    #[test]
+    fn a_bond_of_lennard_jones_pulls_hardest_at_its_inflection() {
+        // phi'' = 0 at r/sigma = (26/7)^(1/6); one look in a thousand on the way to the cutoff.
+        const LOOK: f64 = 4e-4;
+        let material = lennard_jones(1.5);
+        let expected = (26.0_f64 / 7.0).powf(1.0 / 6.0) / material.spacing - 1.0;
+        assert!((material.critical_strain() - expected).abs() < LOOK);
+        let harmonic = crate::potential::HarmonicBond {
+            stiffness: 1.0,
+            distance: 1.0,
+        };
+        let law = CutPotential::new(harmonic, 1.2, AtCutoff::Truncated);
+        let snaps = Material::new(Interaction::HarmonicBond(law), 1.0).unwrap();
+        assert!((snaps.critical_strain() - 0.2).abs() < LOOK);
     }
 
     #[test]

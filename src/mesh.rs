@@ -9,6 +9,7 @@ pub mod grouped;
 pub mod groups;
 pub mod interfaces;
 mod owners;
+mod refined;
 pub mod region;
 pub mod sites;
 pub mod solid;
@@ -25,7 +26,6 @@ use groups::Groups;
 use owners::Owners;
 use region::Region;
 use sites::{Layout, SiteSet};
-use tiling::Target;
 
 /// What a mesh is made from. Lengths in units of the lattice spacing unless said otherwise.
 #[derive(Clone, Debug, PartialEq)]
@@ -76,21 +76,24 @@ impl Mesh {
         let mut breaks = vec![0, plan.grip_rows, middle, sites.rows() - plan.grip_rows, sites.rows()];
         breaks.sort_unstable();
         breaks.dedup();
-        let elements = tiling::tile(&sites, target_sizes(plan, &sites), &breaks);
+        let elements = tiling::tile(&sites, region::target_sizes(plan, &sites), &breaks);
+        Self::of(sites, elements, plan.spacing, plan.grip_rows).with_crack(plan.crack)
+    }
+
+    /// The mesh of elements that hold every site once, in their order, without a crack.
+    fn of(sites: SiteSet, elements: Vec<Element>, spacing: f64, grip_rows: i32) -> Self {
         let triangles = elements.iter().take_while(|element| !element.is_atom()).count();
         let groups = Groups::new(&elements[..triangles]);
-        let owners = Owners::new(sites.rows(), &elements, &groups);
-        let mesh = Self {
+        Self {
+            owners: Owners::new(sites.rows(), &elements, &groups),
+            groups,
             sites,
             elements,
             triangles,
-            groups,
-            owners,
             cut: None,
-            spacing: plan.spacing,
-            grip_rows: plan.grip_rows,
-        };
-        mesh.with_crack(plan.crack)
+            spacing,
+            grip_rows,
+        }
     }
 
     /// The same elements with this crack: none of them minds it.
@@ -204,29 +207,6 @@ impl Mesh {
             0
         }
     }
-}
-
-/// The largest element size allowed at every site.
-fn target_sizes(plan: &Plan, sites: &SiteSet) -> Target {
-    if plan.regions.is_empty() {
-        return Target::Everywhere(plan.element);
-    }
-    let left = sites.left();
-    let middle = (f64::from(sites.middle_row()) - 0.5) * triangular::ROW_HEIGHT;
-    let size = |site: [i32; 2]| {
-        let [x, y] = triangular::position(site);
-        let place = [(x - left) * plan.spacing, (y - middle) * plan.spacing];
-        let finer = plan
-            .regions
-            .iter()
-            .filter(|region| region.shape.contains(place))
-            .map(|region| region.element);
-        finer
-            .chain([plan.element])
-            .min()
-            .expect("the specimen's own size is there")
-    };
-    Target::Each(sites.iter().map(size).collect())
 }
 
 impl Grouped for Mesh {

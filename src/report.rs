@@ -13,6 +13,7 @@ mod overview;
 mod page;
 mod palette;
 mod picture;
+mod refined;
 mod resolution;
 mod scaling;
 mod side_by_side;

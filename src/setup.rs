@@ -83,6 +83,7 @@ fn settings(case: &Case, time_of: impl Fn(f64) -> f64) -> solver::Settings {
             case::MassMatrix::Lumped => 0.0,
             case::MassMatrix::Blend(share) => share,
         },
+        refine: None,
         relax: case.run.relax.is_some(),
         until: solver::Until {
             strain: case.run.until.strain,

@@ -9,6 +9,7 @@ mod error;
 mod ledger;
 mod observe;
 mod observer;
+mod refine;
 mod resume;
 mod schedule;
 pub mod slab;
@@ -51,6 +52,8 @@ pub struct Settings {
     pub summation: Summation,
     /// Share of the consistent mass matrix in that of the triangles; the rest is lumped.
     pub consistent_mass: f64,
+    /// What becomes atoms while the specimen moves; `None`: the mesh stays as it is.
+    pub refine: Option<Refine>,
     /// Whether the specimen comes to rest under the strain of the start before it moves.
     pub relax: bool,
     pub until: Until,
@@ -62,6 +65,15 @@ pub struct Settings {
     pub checkpoint_every: Duration,
     /// What a 2D stress is divided by, nm.
     pub thickness: f64,
+}
+
+/// When elements become atoms.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Refine {
+    /// Largest error of the strain in an element, over what its bonds have left before they give way.
+    pub error: f64,
+    /// How many layers of elements around those that are too coarse become atoms with them.
+    pub ahead: u32,
 }
 
 /// One specimen in motion, in `D` dimensions.
@@ -81,6 +93,8 @@ pub struct Solver<B: Instruments<D> = Slab, const D: usize = 2> {
     ledger: Ledger,
     probes: Schedule,
     snapshots: Schedule,
+    /// At the mesh.
+    looks: Schedule,
     cost: Cost,
 }
 
@@ -96,6 +110,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         let ledger = Ledger::new(body.stored(), [state.kinetic_energy(), held], body.jump_at_cutoff());
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
+        let looks = Schedule::new(body.looks_every().unwrap_or(f64::INFINITY));
         let mut cost = Cost::default();
         cost.book(Phase::SetUp, &mut start);
         Ok(Self {
@@ -114,6 +129,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             ledger,
             probes,
             snapshots,
+            looks,
             cost,
         })
     }
@@ -160,6 +176,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
                 return Ok(Ending::Interrupted);
             }
             self.observe(observer, false)?;
+            self.refine()?;
         } else if let Some(ending) = self.ending() {
             // Only the last checkpoint of a run is made where it ends, and everything was given before it.
             return Ok(ending);
@@ -186,6 +203,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             self.step_on(Looks::WhenDue)?;
             if !self.is_ahead {
                 self.observe(observer, false)?;
+                self.refine()?;
             }
         }
     }

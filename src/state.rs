@@ -1,5 +1,6 @@
 //! The state of a specimen in motion.
 
+mod carried;
 mod leap;
 mod strip;
 
@@ -136,6 +137,17 @@ impl<const D: usize> State<D> {
 }
 
 impl State {
+    /// The nodes of a mesh at rest in the perfect lattice, with the masses of their sites (eV ps^2/nm^2 each), of which those of
+    /// triangles have a share of the consistent mass matrix.
+    pub fn of_mesh(mesh: &Mesh, site_mass: f64, consistent: f64) -> Self {
+        let masses = mesh.lumped_masses().into_iter().map(|mass| mass * site_mass);
+        let mut state = Self::at_rest(mesh.node_positions(), masses.collect());
+        if consistent > 0.0 {
+            state.couple_masses(mesh, consistent);
+        }
+        state
+    }
+
     /// How the nodes of each group of a mesh answer to forces.
     pub fn inertias(&self, mesh: &Mesh) -> Vec<Inertia> {
         let of_group = |nodes: Range<usize>| {

@@ -48,6 +48,12 @@ pub struct Probe {
     pub work: f64,
     /// Energy gained where pairs crossed the cutoff since the start, eV.
     pub cutoff_release: f64,
+    /// Energy that the specimen has gained where its mesh was refined, eV; NaN in runs of older versions, as the next two.
+    pub refined_energy: f64,
+    /// How many nodes the mesh has.
+    pub nodes: f64,
+    /// How many interfaces between triangles have opened in a mesh that is refined on the way: the crack was there first.
+    pub outruns: f64,
     /// Kinetic temperature of the atomic regions, K; NaN where there are none.
     pub temperature: f64,
     /// J-integral in each of the rings around the tip, from the innermost on, eV/nm; NaN where there are none.

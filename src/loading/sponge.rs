@@ -19,6 +19,8 @@ const TASK: usize = 4096;
 /// Damps the velocity relative to that of even stretching, which is left alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sponge {
+    /// What it was made from: the rate of stretching, the layers, and what damps the whole.
+    made_from: (f64, Option<Layers>, f64),
     elements: Vec<Soaked>,
     /// How many elements each parallel task has, and where the nodes of its group or of its atoms end.
     tasks: Vec<[usize; 2]>,
@@ -90,11 +92,18 @@ impl Sponge {
             });
         }
         Self {
+            made_from: (rate, layers, everywhere),
             absorbed: vec![0.0; elements.len()],
             elements,
             tasks,
             time: 0.0,
         }
+    }
+
+    /// The same in another mesh of the specimen, where it has taken nothing yet.
+    pub fn on(&self, mesh: &Mesh) -> Self {
+        let (rate, layers, everywhere) = self.made_from;
+        Self::new(mesh, rate, layers, everywhere)
     }
 
     /// Elements that are damped.

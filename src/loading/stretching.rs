@@ -34,6 +34,8 @@ pub struct Stretching {
     /// Speed of each grip, nm/ps.
     speed: f64,
     impulse: Impulse,
+    /// Work done on the meshes that the specimen had before, eV.
+    earlier_work: f64,
 }
 
 impl Stretching {
@@ -59,7 +61,28 @@ impl Stretching {
             sponge: None,
             nodes,
             speed: 0.5 * rate * (high - low),
+            earlier_work: 0.0,
         }
+    }
+
+    /// The same on another mesh of the specimen. What it has done so far is kept as one sum. All ranks must ask for it together.
+    pub fn on(&self, mesh: &Mesh, ranks: Ranks) -> Self {
+        Self {
+            earlier_work: self.work(ranks),
+            ..Self::new(mesh, self.rate, self.grip, self.ramp)
+        }
+        .from_strain(self.pre_strain)
+        .with_sponge(self.sponge.as_ref().map(|sponge| sponge.on(mesh)))
+    }
+
+    /// Work done on the meshes that the specimen had before, eV.
+    pub fn earlier_work(&self) -> f64 {
+        self.earlier_work
+    }
+
+    /// Goes back to what [`Self::earlier_work`] gave.
+    pub fn restore_earlier_work(&mut self, work: f64) {
+        self.earlier_work = work;
     }
 
     /// The same from a specimen that is already stretched to a nominal strain.
@@ -175,7 +198,7 @@ impl Load<2> for Stretching {
         let impulses = self.impulses(ranks);
         let absorbed: f64 = self.absorbed(ranks).iter().sum();
         let (low, high) = impulses.split_at(self.nodes[0].len());
-        self.speed * (low.iter().sum::<f64>() - high.iter().sum::<f64>()) - absorbed
+        self.earlier_work + self.speed * (low.iter().sum::<f64>() - high.iter().sum::<f64>()) - absorbed
     }
 
     fn longest_step(&self, spacing: f64) -> f64 {

@@ -51,6 +51,9 @@ fn slab_spelled(slab: &Slab) -> Value {
         "specimen": slab::specimen(specimen),
         "resolution": { "element": resolution.element, "regions": regions },
     });
+    if let Some(refine) = &resolution.refine {
+        whole["resolution"]["refine"] = slab::refine(refine);
+    }
     whole["material"]["thickness"] = length(material.thickness);
     // The order of a study file: the crack stands between its specimen and its load.
     if let Some(crack) = crack {

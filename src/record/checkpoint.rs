@@ -39,7 +39,7 @@ pub fn read<K: Keep, const D: usize>(path: &Path, case_id: &str) -> Result<Check
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 7,
+        format: 8,
         case_id,
     }
 }
@@ -80,10 +80,12 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         velocity,
         open_interfaces,
         start: [start_potential, start_pairs, start_kinetic],
+        refined_energy,
         peak_work,
         peak_imbalance,
         probes,
         snapshots,
+        looks,
         kept,
     } = checkpoint;
     put_planes(group, "position", "nm", position)?;
@@ -97,7 +99,12 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         open_interfaces,
         Packing::Plain,
     )?;
-    for (name, count) in [("step", step), ("probes", probes), ("snapshots", snapshots)] {
+    for (name, count) in [
+        ("step", step),
+        ("probes", probes),
+        ("snapshots", snapshots),
+        ("looks", looks),
+    ] {
         put_scalar(group, name, "1", *count)?;
     }
     for (name, unit, number) in [
@@ -107,6 +114,7 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         ("start_potential", "eV", start_potential),
         ("start_pairs", "1", start_pairs),
         ("start_kinetic", "eV", start_kinetic),
+        ("refined_energy", "eV", refined_energy),
         ("peak_work", "eV", peak_work),
         ("peak_imbalance", "eV", peak_imbalance),
     ] {
@@ -129,10 +137,12 @@ fn get_checkpoint<K: Keep, const D: usize>(group: &Group) -> hdf5::Result<Checkp
             get_scalar(group, "start_pairs")?,
             get_scalar(group, "start_kinetic")?,
         ],
+        refined_energy: get_scalar(group, "refined_energy")?,
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,
         probes: get_scalar(group, "probes")?,
         snapshots: get_scalar(group, "snapshots")?,
+        looks: get_scalar(group, "looks")?,
         kept: K::get(group)?,
     })
 }

@@ -1,7 +1,7 @@
 //! The published pictures: a transient unstructured grid in VTKHDF 2.0, which ParaView opens as it is.
 //!
-//! The mesh stands in the file once; every step refers to it with offsets of 0, and to its own stretch of each
-//! field. Fields are in single precision (7 digits), which halves the file; points are in double precision.
+//! A mesh stands in the file once; every step refers to its mesh, and to its own stretch of each field. A mesh that does
+//! not change is the only one. Fields are in single precision (7 digits), which halves the file; points are in double precision.
 
 use std::path::Path;
 
@@ -10,15 +10,16 @@ use hdf5::Group;
 use super::arrays::new_group;
 use super::field::{Field, cell_fields, point_fields};
 use super::frames::{FieldMesh, Frame, Vector};
-use super::mesh::{check_mesh, put_mesh};
+use super::mesh::{Parts, Sizes, check_mesh};
 use super::packed::Packed;
 use super::pieces::FramePiece;
 use super::provenance::put_provenance;
-use super::snapshots::read_frame;
+use super::snapshots::{read_cells, read_frame};
 use super::steps::Steps;
 use super::{RecordError, file};
 
-/// Writes mesh and frames into a new file at `path`; holds one frame at a time.
+/// Writes mesh and frames into a new file at `path`; holds one frame at a time. Frames with cells of their own bring them
+/// along; those that follow each other share what is the same.
 pub(super) fn assemble<V: Vector>(
     path: &Path,
     case_id: &str,
@@ -26,44 +27,76 @@ pub(super) fn assemble<V: Vector>(
     frames: &[FramePiece],
 ) -> Result<(), RecordError> {
     let cannot_write = |cause: hdf5::Error| RecordError::cannot_write(path, cause);
-    check_mesh(mesh).map_err(|what| RecordError::gap(path, what))?;
-    let cells = mesh.element_size.len();
+    let (sizes, parts) = lay_out(path, mesh, frames)?;
     let file = file::create(path, 0).map_err(cannot_write)?;
     put_provenance(&file, case_id).map_err(cannot_write)?;
     let grid = new_group(&file, "VTKHDF").map_err(cannot_write)?;
-    put_mesh(&grid, mesh).map_err(cannot_write)?;
-
-    let mut fields = Fields::create(&grid, mesh, frames.len()).map_err(cannot_write)?;
+    let mut meshes = Parts::create(&grid, &sizes).map_err(cannot_write)?;
+    let mut fields = Fields::<V>::create(&grid, &sizes, &parts).map_err(cannot_write)?;
     let mut steps = Steps::default();
-    for piece in frames {
+    let mut written = 0;
+    for (piece, part) in frames.iter().zip(parts) {
         let frame: Frame<V> = read_frame(&piece.path)?;
         let [nodes, velocities] = [frame.displacement.len(), frame.velocity.len()];
-        if [nodes, velocities, frame.stress.len()] != [mesh.points.len(), mesh.points.len(), cells] {
+        let Sizes { points, cells, .. } = sizes[part];
+        if [nodes, velocities, frame.stress.len()] != [points, points, cells] {
             let what = "the frame has other nodes or cells than the mesh";
             return Err(RecordError::gap(&piece.path, what));
         }
+        if written == part {
+            meshes
+                .append(frame.mesh.as_ref().unwrap_or(mesh))
+                .map_err(cannot_write)?;
+            written += 1;
+        }
         fields.append(&frame).map_err(cannot_write)?;
-        steps.push(frame.step, frame.time, frame.strain);
+        steps.push(frame.step, frame.time, frame.strain, part);
     }
+    meshes.finish().map_err(cannot_write)?;
     fields.finish().map_err(cannot_write)?;
-    steps.put::<V>(&grid, mesh.points.len(), cells).map_err(cannot_write)?;
+    steps.put::<V>(&grid, &sizes).map_err(cannot_write)?;
     file::finish(file).map_err(cannot_write)
+}
+
+/// The sizes of all meshes in the order of the frames, and the number of that of each frame.
+fn lay_out<V: Vector>(
+    path: &Path,
+    mesh: &FieldMesh<V>,
+    frames: &[FramePiece],
+) -> Result<(Vec<Sizes>, Vec<usize>), RecordError> {
+    let mut sizes = Vec::new();
+    let mut last: Option<Option<FieldMesh<V>>> = None;
+    let mut parts = Vec::new();
+    for piece in frames {
+        let cells = read_cells(&piece.path)?;
+        if last.as_ref() != Some(&cells) {
+            let mesh = cells.as_ref().unwrap_or(mesh);
+            check_mesh(mesh).map_err(|what| RecordError::gap(path, what))?;
+            sizes.push(Sizes::of(mesh));
+            last = Some(cells);
+        }
+        parts.push(sizes.len() - 1);
+    }
+    Ok((sizes, parts))
 }
 
 /// The datasets that hold a field for all steps, one after the other.
 struct Fields<V: Vector>(Vec<(Field<V>, Packed<f32>)>);
 
 impl<V: Vector> Fields<V> {
-    fn create(grid: &Group, mesh: &FieldMesh<V>, frames: usize) -> hdf5::Result<Self> {
+    /// For frames on these of the meshes of such sizes.
+    fn create(grid: &Group, sizes: &[Sizes], parts: &[usize]) -> hdf5::Result<Self> {
+        let of_frames: Vec<Sizes> = parts.iter().map(|&part| sizes[part]).collect();
+        let all = Sizes::sum(&of_frames);
         let points = new_group(grid, "PointData")?;
         let cells = grid.group("CellData")?;
         let mut datasets = Vec::new();
         for field in point_fields() {
-            let packed = field.create(&points, mesh.points.len() * frames)?;
+            let packed = field.create(&points, all.points)?;
             datasets.push((field, packed));
         }
         for field in cell_fields() {
-            let packed = field.create(&cells, mesh.element_size.len() * frames)?;
+            let packed = field.create(&cells, all.cells)?;
             datasets.push((field, packed));
         }
         Ok(Fields(datasets))

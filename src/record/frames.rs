@@ -1,7 +1,7 @@
-//! The pictures of a run: a mesh that does not change and fields on it at chosen steps.
+//! The pictures of a run: a mesh and fields on it at chosen steps, each on a mesh of its own where that changes.
 
 /// A row of numbers in a table.
-pub trait Row: Copy + Default {
+pub trait Row: Copy + Default + PartialEq {
     const WIDTH: usize;
     fn flat(rows: &[Self]) -> &[f64];
     /// Splits numbers into rows; `None` if they do not come out even.
@@ -26,7 +26,7 @@ pub trait Tensor: Row {
 
 impl<const WIDTH: usize> Row for [f64; WIDTH]
 where
-    Self: Default,
+    Self: Default + PartialEq,
 {
     const WIDTH: usize = WIDTH;
 
@@ -63,7 +63,7 @@ impl Tensor for [f64; 6] {
     const COMPONENTS: &'static [&'static str] = &["xx", "yy", "zz", "yz", "xz", "xy"];
 }
 
-/// Cells and reference positions, as ParaView wants them. Written once a run.
+/// Cells and reference positions, as ParaView wants them. Written once a run, or with each picture of a mesh that changes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct FieldMesh<V = [f64; 2]> {
     /// Reference positions of the nodes, nm.
@@ -92,4 +92,6 @@ pub struct Frame<V: Vector = [f64; 2]> {
     pub stress: Vec<V::Stress>,
     /// A cell: share of what could break that is broken, 0 to 1: of the reference bonds of its sites, or of its faces.
     pub damage: Vec<f64>,
+    /// Its own cells where the mesh of the run changes; `None`: those of the run.
+    pub mesh: Option<FieldMesh<V>>,
 }

@@ -10,18 +10,18 @@ use ndarray::s;
 use super::arrays::{get, get_column};
 use super::field::from_vtk;
 use super::frames::{FieldMesh, Frame, Vector};
-use super::mesh::get_mesh;
+use super::mesh::{Sizes, get_mesh, get_sizes};
 use super::{RecordError, file};
 use crate::units::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
 
-/// Mesh and frames of a published file. The mesh is read to the bit, the frames to single precision.
+/// The mesh of the first frame of a published file, and its frames. Meshes are read to the bit, frames to single precision.
 pub fn read_fields<V: Vector>(path: &Path) -> Result<(FieldMesh<V>, FrameReader<V>), RecordError> {
     std::fs::metadata(path).map_err(|cause| RecordError::reading(path, &cause))?;
     let read = || {
         let grid = file::open(path)?.group("VTKHDF")?;
-        let mesh = get_mesh(&grid)?;
-        let frames = FrameReader::new(path, grid, &mesh)?;
-        Ok((mesh, frames))
+        let sizes = get_sizes(&grid)?;
+        let mesh = get_mesh(&grid, &sizes, 0)?;
+        Ok((mesh, FrameReader::new(path, grid, sizes)?))
     };
     read().map_err(|cause: hdf5::Error| RecordError::damaged(path, cause))
 }
@@ -30,8 +30,9 @@ pub fn read_fields<V: Vector>(path: &Path) -> Result<(FieldMesh<V>, FrameReader<
 pub struct FrameReader<V = [f64; 2]> {
     path: PathBuf,
     grid: Group,
-    points: usize,
-    cells: usize,
+    sizes: Vec<Sizes>,
+    /// The number of the mesh of each frame.
+    parts: Vec<usize>,
     times: Vec<f64>,
     steps: Vec<u64>,
     strains: Vec<f64>,
@@ -63,12 +64,17 @@ impl<V: Vector> FrameReader<V> {
             .map_err(|cause| RecordError::damaged(&self.path, cause))
     }
 
-    fn new(path: &Path, grid: Group, mesh: &FieldMesh<V>) -> hdf5::Result<Self> {
+    fn new(path: &Path, grid: Group, sizes: Vec<Sizes>) -> hdf5::Result<Self> {
         let times: Vec<f64> = get(&grid, "Steps/Values")?;
+        let parts: Vec<i64> = get_column(&grid, "Steps/PartOffsets", times.len())?;
+        let parts: Vec<usize> = parts.into_iter().map(|part| part as usize).collect();
+        if parts.iter().any(|&part| part >= sizes.len()) {
+            return Err("a step has a mesh that is not there".into());
+        }
         Ok(Self {
             path: path.to_owned(),
-            points: mesh.points.len(),
-            cells: mesh.element_size.len(),
+            sizes,
+            parts,
             steps: get_column(&grid, "FieldData/step", times.len())?,
             strains: get_column(&grid, "FieldData/strain", times.len())?,
             times,
@@ -78,27 +84,28 @@ impl<V: Vector> FrameReader<V> {
     }
 
     fn get_frame(&self, index: usize) -> hdf5::Result<Frame<V>> {
-        let stretch = |rows: usize| index * rows..(index + 1) * rows;
+        let part = self.parts[index];
+        let before: Vec<Sizes> = self.parts[..index].iter().map(|&part| self.sizes[part]).collect();
+        let (before, own) = (Sizes::sum(&before), self.sizes[part]);
+        let points = before.points..before.points + own.points;
+        let cells = before.cells..before.cells + own.cells;
+        let changes = self.sizes.len() > 1;
+        let mesh = changes.then(|| get_mesh(&self.grid, &self.sizes, part)).transpose()?;
         let scaled = |rows: Vec<[f64; 3]>, scale: f64| rows.iter().map(|row| V::of(&row.map(|x| x / scale))).collect();
-        let stress: Vec<[f64; 6]> = self.slice("CellData/virial_stress", stretch(self.cells))?;
-        let damage = self
-            .grid
-            .dataset("CellData/damage")?
-            .read_slice_1d::<f32, _>(stretch(self.cells))?;
+        let stress: Vec<[f64; 6]> = self.slice("CellData/virial_stress", cells.clone())?;
+        let damage = self.grid.dataset("CellData/damage")?.read_slice_1d::<f32, _>(cells)?;
         Ok(Frame {
             step: self.steps[index],
             time: self.times[index],
             strain: self.strains[index],
-            displacement: scaled(self.slice("PointData/displacement", stretch(self.points))?, 1.0),
-            velocity: scaled(
-                self.slice("PointData/velocity", stretch(self.points))?,
-                NM_PER_PS_IN_M_PER_S,
-            ),
+            displacement: scaled(self.slice("PointData/displacement", points.clone())?, 1.0),
+            velocity: scaled(self.slice("PointData/velocity", points)?, NM_PER_PS_IN_M_PER_S),
             stress: stress
                 .iter()
                 .map(|tensor| from_vtk(tensor.map(|component| component / EV_PER_NM3_IN_GPA)))
                 .collect(),
             damage: damage.iter().map(|damage| f64::from(*damage)).collect(),
+            mesh,
         })
     }
 

@@ -126,10 +126,13 @@ const COLUMNS: [Column; 11] = [
 ];
 
 /// Columns that files written before there were any do not have; not a number there.
-const LATER_COLUMNS: [Column; 3] = [
+const LATER_COLUMNS: [Column; 6] = [
     ("j_integral_inner", "eV/nm", |probe| &mut probe.j_integral[0]),
     ("j_integral_middle", "eV/nm", |probe| &mut probe.j_integral[1]),
     ("j_integral_outer", "eV/nm", |probe| &mut probe.j_integral[2]),
+    ("refined_energy", "eV", |probe| &mut probe.refined_energy),
+    ("nodes", "1", |probe| &mut probe.nodes),
+    ("outruns", "1", |probe| &mut probe.outruns),
 ];
 
 fn put_series(parent: &Group, series: &Series) -> hdf5::Result<()> {

@@ -6,8 +6,8 @@ use std::path::Path;
 use hdf5::Group;
 
 use super::RecordError;
-use super::arrays::{Packing, get, get_column, get_scalar, put, put_scalar};
-use super::frames::{Frame, Row, Vector};
+use super::arrays::{Packing, get, get_column, get_scalar, new_group, put, put_scalar};
+use super::frames::{FieldMesh, Frame, Row, Vector};
 use super::pieces::frame_path;
 use super::sealed::{self, Seal};
 
@@ -23,6 +23,8 @@ pub trait Picture<V: Vector = [f64; 2]> {
     fn stress(&self) -> Cow<'_, [V::Stress]>;
     /// A cell: share of what could break that is broken, 0 to 1.
     fn damage(&self) -> Cow<'_, [f64]>;
+    /// Its own cells where the mesh of the run changes.
+    fn mesh(&self) -> Option<Cow<'_, FieldMesh<V>>>;
 }
 
 impl<V: Vector> Picture<V> for Frame<V> {
@@ -45,12 +47,22 @@ impl<V: Vector> Picture<V> for Frame<V> {
     fn damage(&self) -> Cow<'_, [f64]> {
         Cow::Borrowed(&self.damage)
     }
+
+    fn mesh(&self) -> Option<Cow<'_, FieldMesh<V>>> {
+        self.mesh.as_ref().map(Cow::Borrowed)
+    }
 }
 
 /// Writes one picture of the run.
 pub fn write_frame<V: Vector>(dir: &Path, picture: &impl Picture<V>) -> Result<(), RecordError> {
     let (step, ..) = picture.moment();
     sealed::write(&frame_path(dir, step), FRAME, |group| put_picture(group, picture))
+}
+
+/// The cells of a picture that has its own.
+pub(super) fn read_cells<V: Vector>(path: &Path) -> Result<Option<FieldMesh<V>>, RecordError> {
+    let file = sealed::open(path, FRAME)?;
+    get_cells(&file).map_err(|cause| RecordError::damaged(path, cause))
 }
 
 pub(super) fn read_frame<V: Vector>(path: &Path) -> Result<Frame<V>, RecordError> {
@@ -73,7 +85,39 @@ fn put_picture<V: Vector>(group: &Group, picture: &impl Picture<V>) -> hdf5::Res
     put_rows(group, "velocity", "nm/ps", &picture.velocity())?;
     put_rows(group, "stress", "eV/nm^3", &picture.stress())?;
     let damage = picture.damage();
-    put(group, "damage", "1", &[damage.len()], &damage, Packing::Plain)
+    put(group, "damage", "1", &[damage.len()], &damage, Packing::Plain)?;
+    match picture.mesh() {
+        Some(mesh) => put_cells(&new_group(group, MESH)?, &mesh),
+        None => Ok(()),
+    }
+}
+
+/// Group of the cells of a picture that has its own.
+const MESH: &str = "mesh";
+
+fn put_cells<V: Vector>(group: &Group, mesh: &FieldMesh<V>) -> hdf5::Result<()> {
+    put_rows(group, "points", "nm", &mesh.points)?;
+    for (name, numbers) in [
+        ("connectivity", &mesh.connectivity),
+        ("offsets", &mesh.offsets),
+        ("element_size", &mesh.element_size),
+    ] {
+        put(group, name, "1", &[numbers.len()], numbers, Packing::Plain)?;
+    }
+    Ok(())
+}
+
+fn get_cells<V: Vector>(parent: &Group) -> hdf5::Result<Option<FieldMesh<V>>> {
+    if !parent.link_exists(MESH) {
+        return Ok(None);
+    }
+    let group = parent.group(MESH)?;
+    Ok(Some(FieldMesh {
+        points: get_rows(&group, "points")?,
+        connectivity: get(&group, "connectivity")?,
+        offsets: get(&group, "offsets")?,
+        element_size: get(&group, "element_size")?,
+    }))
 }
 
 fn put_rows<R: Row>(group: &Group, name: &str, unit: &str, rows: &[R]) -> hdf5::Result<()> {
@@ -100,6 +144,7 @@ fn get_frame<V: Vector>(group: &Group) -> hdf5::Result<Frame<V>> {
         displacement: get_rows(group, "displacement")?,
         velocity: get_rows(group, "velocity")?,
         damage: get_column(group, "damage", stress.len())?,
+        mesh: get_cells(group)?,
         stress,
     })
 }

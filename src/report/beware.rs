@@ -1,8 +1,8 @@
 //! What the first lines of a report warn of.
 
-use super::Analysed;
 use super::numbers::significant;
 use super::units::PERCENT;
+use super::{Analysed, refined};
 
 /// Share of the work from which on an energy error is told before anything else: what is measured of a crack changes by as
 /// much.
@@ -34,6 +34,7 @@ pub fn sentences(cases: &[Analysed]) -> Vec<String> {
     });
     energy
         .chain(nodal)
+        .chain(cases.iter().filter_map(refined::outrun))
         .chain(cases.iter().filter_map(parted_elsewhere))
         .collect()
 }

@@ -5,6 +5,7 @@ mod sweep;
 
 use super::Analysed;
 use super::chart::{Chart, Content, Curve};
+use super::refined::is_refined;
 use super::sweep::{Look, looks};
 use super::tables::speed_against_error;
 use super::units::{GIGAPASCAL, PERCENT};
@@ -23,6 +24,7 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
         tip_position(cases),
         profile(cases),
         traction(cases),
+        nodes(cases),
         imbalance(cases),
     ]);
     charts.extend(cases.iter().map(energies));
@@ -39,13 +41,14 @@ pub fn charts(cases: &[Analysed], comparisons: &[Comparison]) -> Vec<Chart> {
 
 /// Whether a report may have drawn a file of this name.
 pub fn is_of_a_report(name: &str) -> bool {
-    const COMMON: [&str; 7] = [
+    const COMMON: [&str; 8] = [
         "stress-strain",
         "temperature",
         "crack-speed",
         "tip-position",
         "stress-profile",
         "traction-profile",
+        "nodes",
         "energy-imbalance",
     ];
     let id = name.strip_suffix(".svg").unwrap_or_default();
@@ -201,6 +204,27 @@ fn traction(cases: &[Analysed]) -> Chart {
     }
 }
 
+/// Of cases whose elements become atoms on the way.
+fn nodes(cases: &[Analysed]) -> Chart {
+    let nodes = |case: &Analysed| {
+        let rows = case.result.series.probes.iter().filter(|_| is_refined(case));
+        rows.map(|row| (row.time, row.nodes)).collect()
+    };
+    Chart {
+        id: "nodes".to_owned(),
+        detail: false,
+        table: "stress_strain",
+        title: "Nodes over time".to_owned(),
+        caption:
+            "Elements become atoms where their strain differs too much from that of their neighbours, and the layers \
+                  around them with them. Each rise is a new mesh."
+                .to_owned(),
+        x: "time (ps)".to_owned(),
+        y: "nodes".to_owned(),
+        content: Content::Curves(curves(cases, nodes)),
+    }
+}
+
 fn imbalance(cases: &[Analysed]) -> Chart {
     let error = |case: &Analysed| {
         let work = case
@@ -234,7 +258,16 @@ fn imbalance(cases: &[Analysed]) -> Chart {
 }
 
 fn balance(row: &Probe) -> f64 {
-    row.kinetic + row.potential - row.work - row.cutoff_release
+    row.kinetic + row.potential - row.work - row.cutoff_release - gained(row)
+}
+
+/// What came with finer meshes, eV; older versions had none.
+fn gained(row: &Probe) -> f64 {
+    if row.refined_energy.is_nan() {
+        0.0
+    } else {
+        row.refined_energy
+    }
 }
 
 fn energies(case: &Analysed) -> Chart {
@@ -254,6 +287,15 @@ fn energies(case: &Analysed) -> Chart {
         points: over_strain(case, |row| of(row) / size),
         ..Curve::default()
     };
+    let mut curves = vec![
+        curve(0, "grip work", &|row| row.work),
+        curve(1, "potential", &|row| row.potential),
+        curve(2, "kinetic", &|row| row.kinetic - start.kinetic),
+        curve(3, "cutoff release", &|row| row.cutoff_release),
+    ];
+    if is_refined(case) {
+        curves.push(curve(4, "refined", &gained));
+    }
     Chart {
         id: format!("energy-{}", case.file_part()),
         detail: true,
@@ -269,11 +311,6 @@ fn energies(case: &Analysed) -> Chart {
         ),
         x: "nominal strain (%)".to_owned(),
         y: format!("energy ({unit})"),
-        content: Content::Curves(vec![
-            curve(0, "grip work", &|row| row.work),
-            curve(1, "potential", &|row| row.potential),
-            curve(2, "kinetic", &|row| row.kinetic - start.kinetic),
-            curve(3, "cutoff release", &|row| row.cutoff_release),
-        ]),
+        content: Content::Curves(curves),
     }
 }

@@ -9,7 +9,7 @@ use crate::record::{FrameReader, RecordError};
 /// A mesh and frames on it in order of time, of which a large run's are read one by one.
 #[derive(Clone)]
 pub struct Film<V: Vector = [f64; 2]> {
-    pub mesh: FieldMesh<V>,
+    mesh: FieldMesh<V>,
     frames: Frames<V>,
 }
 
@@ -48,6 +48,11 @@ impl<V: Vector> Film<V> {
             Frames::Held(frames) => Ok(frames[index].clone()),
             Frames::Stored(reader) => reader.frame(index),
         }
+    }
+
+    /// The cells of a frame: its own, or those of the run.
+    pub fn cells<'a>(&'a self, frame: &'a Frame<V>) -> &'a FieldMesh<V> {
+        frame.mesh.as_ref().unwrap_or(&self.mesh)
     }
 
     /// The frame in which something comes nearest to a value; `None` without frames.

@@ -137,8 +137,9 @@ fn of_all(has_crack: bool) -> [(&'static str, String); 2] {
         ),
         (
             "Energy error",
-            "Largest |Δkinetic + Δpotential − work − cutoff release| over the largest work. The cutoff release is what \
-             the energy jumps where a pair crosses a truncated cutoff; it is zero where the potential is smooth."
+            "Largest |Δkinetic + Δpotential − work − cutoff release − refined| over the largest work. The cutoff release is \
+             what the energy jumps where a pair crosses a truncated cutoff; it is zero where the potential is smooth. Refined is \
+             what the energy jumps where elements become atoms."
                 .to_owned(),
         ),
     ]

@@ -1,6 +1,7 @@
 //! The cases side by side: what differs, what it costs, what came out, how far from the finest.
 
 use super::numbers::{ABSENT, count, signed_percent, significant};
+use super::refined::is_refined;
 use super::tables::specimen::are_one_computation;
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
 use super::{Analysed, CaseResult, sweep};
@@ -303,6 +304,18 @@ fn energies(cases: &[Analysed]) -> Vec<Row> {
             Some(format!(
                 "{} %",
                 significant(PERCENT * last.cutoff_release / last.work, 2)
+            ))
+        }),
+        row(cases, "gained where elements became atoms (of the work)", |case| {
+            let last = case
+                .result
+                .series
+                .probes
+                .last()
+                .filter(|last| last.work > 0.0 && is_refined(case))?;
+            Some(format!(
+                "{} %",
+                significant(PERCENT * last.refined_energy / last.work, 2)
             ))
         }),
         row(cases, "energy error (of the work)", |case| {

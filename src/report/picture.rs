@@ -13,6 +13,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::film::Film;
+use super::refined::is_refined;
 use super::slab;
 use super::units::PERCENT;
 use super::{Analysed, ReportError, numbers, save};
@@ -70,6 +71,8 @@ pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> R
         Shade::Stress,
         folder,
     )?);
+    let title = "Where elements became atoms".to_owned();
+    galleries.push(gallery(title, &refined_meshes(cases), Shade::Size, folder)?);
     galleries.push(path::gallery(cases, folder)?);
     galleries.retain(|gallery| !gallery.pictures.is_empty());
     Ok(galleries)
@@ -77,7 +80,7 @@ pub fn draw_all(cases: &[Analysed], stages: Option<&Stages>, folder: &Path) -> R
 
 /// Whether a report may have drawn a file of this name.
 pub fn is_of_a_report(name: &str) -> bool {
-    let kinds = ["slab-", "stage-", "branch-", "path-"];
+    let kinds = ["slab-", "stage-", "branch-", "path-", "mesh-"];
     kinds.iter().any(|kind| name.starts_with(kind)) && name.ends_with(".png") || name == animation::FILE
 }
 
@@ -96,6 +99,26 @@ fn endings<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
         })
     };
     with_film(cases).filter_map(ending).collect()
+}
+
+/// The meshes of cases whose elements become atoms: when the crack starts, and at the end.
+fn refined_meshes<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
+    let refined = with_film(cases).filter(|(case, _)| is_refined(case));
+    let moments = refined.flat_map(|(case, film)| {
+        let start = case.findings.initiation.map(|start| start.time);
+        let at_start = start.and_then(|start| Some((film.nearest(start, |(time, _)| time)?, "at the start")));
+        let last = film.moments().len().checked_sub(1);
+        let moments = at_start.into_iter().chain(last.map(|last| (last, "at the end")));
+        moments.map(move |moment| (case, film, moment))
+    });
+    let wanted = |(case, film, (frame, when)): (&'a Analysed<'a>, &'a Film, (usize, &str))| Wanted {
+        case,
+        film,
+        frame,
+        file: format!("mesh-{}-{frame}.png", case.file_part()),
+        title: format!("{} {when}", case.name()),
+    };
+    moments.map(wanted).collect()
 }
 
 fn branching<'a>(cases: &'a [Analysed<'a>]) -> Vec<Wanted<'a>> {
@@ -132,7 +155,10 @@ fn stage_frames<'a>(cases: &'a [Analysed<'a>], stages: &Stages) -> Vec<Wanted<'a
 
 /// Draws pictures on one scale.
 fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Result<Gallery, ReportError> {
-    let quantile = |picture: &Wanted| Ok(shade.quantile(&picture.film.mesh, &picture.frame()?));
+    let quantile = |picture: &Wanted| {
+        let frame = picture.frame()?;
+        Ok(shade.quantile(picture.film.cells(&frame), &frame))
+    };
     let tops: Vec<Result<f64, ReportError>> = wanted.par_iter().map(quantile).collect();
     let top = tops
         .into_iter()
@@ -158,6 +184,11 @@ fn gallery(title: String, wanted: &[Wanted], shade: Shade, folder: &Path) -> Res
                  ±{end} GPa the end colours); black is empty space, grey are the grips."
             )
         }
+        Shade::Size => {
+            "Displacements to scale. Colour is the number of atoms per edge of an element: dark are single atoms, black is \
+                        empty space. At the start: the picture taken nearest to it."
+                .to_owned()
+        }
         Shade::Speed => format!(
             "The pictures taken nearest to the moments at which the cracks first branch. Colour is the speed of the \
              particles, on the same scale in all pictures (beyond {end} m/s the end colour), so that waves show."
@@ -173,7 +204,8 @@ impl Wanted<'_> {
 
     /// `None` where there is nothing to be seen.
     fn draw(&self, shade: Shade, limit: f64, folder: &Path) -> Result<Option<Picture>, ReportError> {
-        let (mesh, frame) = (&self.film.mesh, &self.frame()?);
+        let frame = &self.frame()?;
+        let mesh = self.film.cells(frame);
         let setting = self.case.result.setting.as_ref();
         let [spacing, height] = setting.map_or([0.0, f64::INFINITY], |setting| [setting.spacing, setting.height]);
         let Some(view) = slab::view(&slab::positions(mesh, frame), MARGIN * spacing) else {

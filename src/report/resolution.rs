@@ -1,6 +1,7 @@
 //! What the size of the elements does to a crack, for the cases of a report.
 
 use super::Analysed;
+use super::refined::is_refined;
 
 /// Atoms an edge from which cracks turn aside at the first corner.
 const KINKS_FROM: u32 = 5;
@@ -24,6 +25,16 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                  Elements of fewer than {KINKS_FROM} atoms per edge let the crack run straight (studies convergence-D and \
                  models-A-E-fine)."
             ),
+        ));
+    }
+    if cases.iter().any(is_refined) {
+        notes.push((
+            "Elements that become atoms",
+            "The error of an element is the largest difference |F − F′| between its deformation gradient and that of an element \
+             along one of its edges, over what the longest of their bonds has left until it gives way. Where it is larger than \
+             asked for, the element becomes its atoms, and the layers around it with it, at the places and velocities at which \
+             the element carried them. With the consistent mass and the sum over all bonds neither energy nor momentum changes."
+                .to_owned(),
         ));
     }
     if has_band {

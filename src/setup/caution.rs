@@ -2,6 +2,7 @@
 
 use super::intervals::between_pictures;
 use super::slab::material;
+use super::slab::refined::{self, Growth};
 use super::solid;
 use crate::study::case::{Body, Case, Loading, Slab, Summation};
 
@@ -11,8 +12,8 @@ const UNLIKELY_THICKNESS: f64 = 20.0;
 /// Sentences about what a case has chosen, whose run takes about `time` (ps).
 pub fn cautions(case: &Case, time: f64) -> Vec<String> {
     let own = match &case.body {
-        Body::Slab(slab) => [summation(case.run.summation), thickness(slab)],
-        Body::Solid(_) => [patches(case.run.summation), None],
+        Body::Slab(slab) => [summation(case.run.summation), thickness(slab), refinement(case, slab)],
+        Body::Solid(_) => [patches(case.run.summation), None, None],
     };
     own.into_iter().flatten().chain(pictures(case, time)).collect()
 }
@@ -32,6 +33,28 @@ fn pictures(case: &Case, time: f64) -> Option<String> {
          shorter `snapshots: {{every: …}}`, such as {:.2e} ps",
         time / 10.0
     ))
+}
+
+/// What elements will become.
+fn refinement(case: &Case, slab: &Slab) -> Option<String> {
+    slab.resolution.refine?;
+    let growth = material(slab)
+        .ok()
+        .and_then(|material| refined::growth(slab, &case.run.until, &material));
+    Some(match growth {
+        Some(Growth { half_width, atoms }) => format!(
+            "elements become atoms along the way of the crack, some {half_width:.1} nm to either side of it: at its end about \
+             {} atoms, if it runs straight; time, memory and disk are those of a run that ends so",
+            significant(atoms)
+        ),
+        None => "without a crack no element becomes atoms before a bond is at its end".to_owned(),
+    })
+}
+
+/// With two digits.
+fn significant(number: f64) -> u64 {
+    let digits = 10f64.powf((number.max(1.0).log10().floor() - 1.0).max(0.0));
+    ((number / digits).round() * digits) as u64
 }
 
 fn thickness(slab: &Slab) -> Option<String> {

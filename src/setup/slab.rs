@@ -5,6 +5,7 @@ mod census;
 pub mod estimate;
 pub mod geometry;
 pub mod leftovers;
+pub mod refined;
 
 use super::{SetupError, interaction};
 use crate::domain::Ranks;
@@ -191,7 +192,9 @@ pub fn shared_solver(case: &Case, slab: &Slab, ranks: Ranks) -> Result<Solver, S
 
 fn settings(case: &Case, slab: &Slab) -> solver::Settings {
     let case::Loading::StrainRate { rate, .. } = slab.loading;
+    let refine = slab.resolution.refine;
     solver::Settings {
+        refine: refine.map(|case::Refine { error, ahead }| solver::Refine { error, ahead }),
         thickness: slab.material.thickness,
         ..super::settings(case, |strain| strain / rate)
     }

@@ -55,6 +55,20 @@ pub trait Body<const D: usize> {
     /// Cuts the specimen anew among the ranks. It leaves no trace in the results.
     fn cut_anew(&mut self, _state: &mut State<D>) {}
 
+    /// How often to look whether the mesh is fine enough, ps; `None` where it stays as it is.
+    fn looks_every(&self) -> Option<f64> {
+        None
+    }
+
+    /// Whether the mesh is too coarse for what it carries. All ranks must ask for it together, and get the same answer.
+    fn is_too_coarse(&mut self, _state: &mut State<D>) -> bool {
+        false
+    }
+
+    /// Goes over to the mesh that is fine enough, after [`Self::is_too_coarse`], with a state that moves on as it did. Nothing
+    /// is computed yet.
+    fn refine(&mut self, _state: &mut State<D>) {}
+
     /// Brings the specimen to rest; `tell` hears about what is left of the forces, again and again.
     fn relax(&mut self, state: &mut State<D>, stop: &AtomicBool, tell: &mut dyn FnMut(f64)) -> Result<(), SolverError>;
 
@@ -109,6 +123,15 @@ pub trait Instruments<const D: usize>: Body<D> {
 
     /// All ranks must call this together; only the first has the whole.
     fn keep(&self) -> Self::Kept;
+
+    /// Goes over to the mesh of so many nodes on which something was kept, with a state on it; refuses that of another specimen,
+    /// says by what, and changes nothing then.
+    fn go_to_mesh_of(&mut self, _kept: &Self::Kept, nodes: usize, state: &mut State<D>) -> Result<(), &'static str> {
+        match nodes == state.nodes() {
+            true => Ok(()),
+            false => Err("it has another number of nodes"),
+        }
+    }
 
     /// Refuses open interfaces and what was kept of another specimen, and says by what.
     fn check_is_own(&self, open_interfaces: &[u32], kept: &Self::Kept) -> Result<(), &'static str>;

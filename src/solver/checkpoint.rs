@@ -25,12 +25,16 @@ pub struct Checkpoint<K = Kept, const D: usize = 2> {
     pub open_interfaces: Vec<u32>,
     /// Potential energy (eV), pairs within the cutoff and kinetic energy (eV) when the motion began.
     pub start: [f64; 3],
+    /// What the mesh has gained of energy where it was refined, eV.
+    pub refined_energy: f64,
     /// Largest |work| and largest energy imbalance seen, eV.
     pub peak_work: f64,
     pub peak_imbalance: f64,
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,
+    /// How often it was looked whether the mesh is fine enough.
+    pub looks: u64,
     /// What the loading has done and the instruments have seen.
     pub kept: K,
 }
@@ -46,10 +50,12 @@ impl<K: Default, const D: usize> Default for Checkpoint<K, D> {
             velocity: array::from_fn(|_| Vec::new()),
             open_interfaces: Vec::new(),
             start: [0.0; 3],
+            refined_energy: 0.0,
             peak_work: 0.0,
             peak_imbalance: 0.0,
             probes: 0,
             snapshots: 0,
+            looks: 0,
             kept: K::default(),
         }
     }

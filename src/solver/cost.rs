@@ -21,10 +21,12 @@ pub enum Phase {
     Stability,
     /// Probes, snapshots and checkpoints; the source's OUT.
     Output,
+    /// Finer meshes, and looks whether there must be one.
+    Refinement,
 }
 
 impl Phase {
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::SetUp,
         Self::Cut,
         Self::Neighbours,
@@ -33,6 +35,7 @@ impl Phase {
         Self::Motion,
         Self::Stability,
         Self::Output,
+        Self::Refinement,
     ];
 
     pub fn name(self) -> &'static str {
@@ -45,6 +48,7 @@ impl Phase {
             Self::Motion => "motion",
             Self::Stability => "stability",
             Self::Output => "output",
+            Self::Refinement => "refinement",
         }
     }
 }

@@ -16,6 +16,8 @@ pub struct Ledger {
     held_kinetic: f64,
     /// What the energy of a pair jumps by when it comes within the cutoff, eV.
     jump: f64,
+    /// What the mesh has gained of energy where it was refined, eV.
+    refined: f64,
     peak_work: f64,
     peak_imbalance: f64,
 }
@@ -26,6 +28,8 @@ pub struct Balance {
     pub potential: f64,
     pub work: f64,
     pub cutoff_release: f64,
+    /// What came with finer meshes.
+    pub refined: f64,
     pub imbalance: f64,
 }
 
@@ -45,6 +49,7 @@ impl Ledger {
             initial_kinetic: kinetic,
             held_kinetic: held,
             jump,
+            refined: 0.0,
             peak_work: 0.0,
             peak_imbalance: 0.0,
         }
@@ -61,14 +66,27 @@ impl Ledger {
         let potential = potential - self.initial_potential;
         // Adding zero turns a negative zero into zero.
         let cutoff_release = self.jump * (pairs - self.initial_pairs) + 0.0;
-        let imbalance = (kinetic - self.initial_kinetic + potential - work - cutoff_release).abs();
+        let imbalance = (kinetic - self.initial_kinetic + potential - work - cutoff_release - self.refined).abs();
         self.peak_imbalance = self.peak_imbalance.max(imbalance);
         Balance {
             potential,
             work,
             cutoff_release,
+            refined: self.refined,
             imbalance,
         }
+    }
+
+    /// Books the energy by which a finer mesh holds more than the one before it, at the same moment, less what pairs released:
+    /// potential energy (eV), pairs within the cutoff, and kinetic energy (eV) of both.
+    pub fn refine(&mut self, before: [f64; 3], after: [f64; 3]) {
+        let [potential, pairs, kinetic] = [0, 1, 2].map(|part| after[part] - before[part]);
+        self.refined += potential + kinetic - self.jump * pairs;
+    }
+
+    /// What the mesh has gained of energy where it was refined, eV.
+    pub fn refined(&self) -> f64 {
+        self.refined
     }
 
     /// Largest imbalance over the largest work, or nothing before any work is done.
@@ -124,7 +142,8 @@ impl Ledger {
         [self.initial_potential, self.initial_pairs, self.initial_kinetic]
     }
 
-    pub fn restore(&mut self, start: [f64; 3], peak_work: f64, peak_imbalance: f64) {
+    pub fn restore(&mut self, start: [f64; 3], refined: f64, [peak_work, peak_imbalance]: [f64; 2]) {
+        self.refined = refined;
         [self.initial_potential, self.initial_pairs, self.initial_kinetic] = start;
         self.peak_work = peak_work;
         self.peak_imbalance = peak_imbalance;
@@ -151,7 +170,7 @@ mod tests {
     /// With grips of so much kinetic energy, eV.
     fn goes_on_with(held: f64, peak_work: f64, peak_imbalance: f64) -> bool {
         let mut ledger = Ledger::new([0.0; 2], [0.0, held], 0.0);
-        ledger.restore([POTENTIAL, PAIRS, KINETIC + held], peak_work, peak_imbalance);
+        ledger.restore([POTENTIAL, PAIRS, KINETIC + held], 0.0, [peak_work, peak_imbalance]);
         ledger.check(1, 1.0, 1e-9, 0.0, Vec::new).is_ok()
     }
 
@@ -176,9 +195,18 @@ mod tests {
         // A plate of 371,000 atoms in the second step after a ball has touched it, eV.
         let [work, imbalance, unresolved] = [1.326e-6, 1.337e-6, 2.6e-6];
         let mut ledger = Ledger::new([0.0; 2], [0.0; 2], 0.0);
-        ledger.restore([-9.2e5, 2.2e6, 0.0], work, imbalance);
+        ledger.restore([-9.2e5, 2.2e6, 0.0], 0.0, [work, imbalance]);
         let goes_on = |unresolved: f64| ledger.check(22, 2.232, 0.0, unresolved, Vec::new).is_ok();
         assert!(goes_on(unresolved) && !goes_on(0.0));
+    }
+
+    #[test]
+    fn what_comes_with_a_finer_mesh_is_no_error_of_the_computation() {
+        let mut ledger = Ledger::new([-10.0, 30.0], [2.0, 0.0], 0.5);
+        // The finer mesh holds 0.25 more, and a pair more, which costs 0.5.
+        ledger.refine([-9.0, 30.0, 3.0], [-8.5, 31.0, 3.25]);
+        let balance = ledger.balance([-8.5, 31.0], 3.25, 2.0);
+        assert_eq!([balance.refined, balance.imbalance], [0.25, 0.0]);
     }
 
     #[test]

@@ -51,6 +51,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             state: &self.state,
             measure: self.body.measure(),
             broken: &broken,
+            mesh_changes: self.body.looks_every().is_some(),
         };
         observer.snapshot(&moment).map_err(RunError::Output)
     }

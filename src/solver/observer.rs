@@ -29,6 +29,8 @@ pub struct Moment<'a, B: Instruments<D> = Slab, const D: usize = 2> {
     pub state: &'a State<D>,
     pub measure: &'a B::Measure,
     pub broken: &'a B::Broken,
+    /// Whether the mesh of the run changes.
+    pub mesh_changes: bool,
 }
 
 /// How far a run is.

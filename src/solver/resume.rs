@@ -30,10 +30,12 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             velocity: array::from_fn(|_| Vec::new()),
             open_interfaces: self.body.open_interfaces(),
             start: self.ledger.start(),
+            refined_energy: self.ledger.refined(),
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
             probes: self.probes.taken(),
             snapshots: self.snapshots.taken(),
+            looks: self.looks.taken(),
             kept: self.body.keep(),
         }
     }
@@ -41,10 +43,15 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     /// Goes back to where a checkpoint was made; one of another specimen changes nothing.
     pub fn restore(&mut self, checkpoint: &Checkpoint<B::Kept, D>) -> Result<(), SolverError> {
         let Checkpoint { position, velocity, .. } = checkpoint;
-        let nodes = self.state.nodes();
+        let nodes = position[0].len();
         if position.iter().chain(velocity).any(|axis| axis.len() != nodes) {
-            return Err(SolverError::OtherSpecimen("it has another number of nodes"));
+            return Err(SolverError::OtherSpecimen(
+                "its nodes have unequal numbers of coordinates",
+            ));
         }
+        self.body
+            .go_to_mesh_of(&checkpoint.kept, nodes, &mut self.state)
+            .map_err(SolverError::OtherSpecimen)?;
         self.body
             .check_is_own(&checkpoint.open_interfaces, &checkpoint.kept)
             .map_err(SolverError::OtherSpecimen)?;
@@ -58,10 +65,14 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         self.state.velocity.clone_from(velocity);
         self.body.restore(&checkpoint.open_interfaces, &checkpoint.kept);
         self.compute(false).map_err(|source| self.blow_up(source))?;
-        self.ledger
-            .restore(checkpoint.start, checkpoint.peak_work, checkpoint.peak_imbalance);
+        self.ledger.restore(
+            checkpoint.start,
+            checkpoint.refined_energy,
+            [checkpoint.peak_work, checkpoint.peak_imbalance],
+        );
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
+        self.looks.restore(checkpoint.looks, checkpoint.step);
         Ok(())
     }
 }

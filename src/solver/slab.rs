@@ -8,6 +8,7 @@ pub mod j_integral;
 mod keep;
 mod probe;
 mod read;
+mod refinement;
 mod setting;
 mod sight;
 mod traction;
@@ -40,6 +41,7 @@ use crack::Crack;
 use gauges::Gauges;
 use j_integral::JIntegral;
 use probe::{Interior, ProfileLine};
+use refinement::Refinement;
 use sight::Sight;
 use traction::Traction;
 
@@ -51,6 +53,7 @@ pub struct Slab {
     measure: Measure,
     next: Next,
     probes: Probes,
+    refinement: Option<Refinement>,
 }
 
 /// What is read of a slab, and what its readings go on from.
@@ -86,20 +89,19 @@ impl Solver {
         settings: Settings,
     ) -> Result<Self, SolverError> {
         let start = Instant::now();
-        let masses = mesh
-            .lumped_masses()
-            .into_iter()
-            .map(|mass| mass * material.site_mass)
-            .collect();
-        let mut state = State::at_rest(mesh.node_positions(), masses);
-        if settings.consistent_mass > 0.0 {
-            state.couple_masses(&mesh, settings.consistent_mass);
-        }
+        let mut state = State::of_mesh(&mesh, material.site_mass, settings.consistent_mass);
         loading.pre_stretch(&mesh, &mut state);
         loading.start(&mesh, &mut state);
-        let setting = setting::setting(&mesh, &material, &loading, settings.thickness);
-        let probes = Probes::new(&mesh, material, &loading, &setting, &settings);
+        let mut setting = setting::setting(&mesh, &material, &loading, settings.thickness);
+        let element = setting.element_at_crack;
+        if settings.refine.is_some() {
+            // What it is when the crack comes.
+            setting.element_at_crack = 1;
+        }
+        let probes = Probes::new(&mesh, material, &loading, &setting, element, &settings);
         let mut forces = Forces::shared(ranks, mesh, material, settings.summation);
+        let refine = settings.refine;
+        let refinement = refine.map(|refine| Refinement::new(refine, &forces, element, &settings));
         let held = loading.held();
         let nothing = [vec![0.0; held.len()], vec![0.0; loading.sponge_size()]];
         forces.look_at(held.into_iter());
@@ -111,6 +113,7 @@ impl Solver {
             measure: Measure::default(),
             next: Next::default(),
             probes,
+            refinement,
         };
         Self::of(slab, state, settings, start)
     }
@@ -132,8 +135,16 @@ impl Solver {
 }
 
 impl Probes {
-    fn new(mesh: &Mesh, material: Material, loading: &Stretching, setting: &Setting, settings: &Settings) -> Self {
-        let profile = ProfileLine::new(mesh, setting);
+    /// `element`: atoms an edge along the crack plane of the mesh of the start.
+    fn new(
+        mesh: &Mesh,
+        material: Material,
+        loading: &Stretching,
+        setting: &Setting,
+        element: u32,
+        settings: &Settings,
+    ) -> Self {
+        let profile = ProfileLine::new(mesh, setting, element);
         let traction = Traction::new(mesh, &material, &profile, setting);
         let gauges = Gauges::new(mesh, setting);
         let has_stress = settings.summation != Summation::Nodal;
@@ -272,6 +283,19 @@ impl Body<2> for Slab {
         self.forces.cut_anew();
         self.loading
             .belong_to(&self.forces.domain().nodes(), &impulses, &absorbed);
+    }
+
+    fn looks_every(&self) -> Option<f64> {
+        let refinement = self.refinement.as_ref()?;
+        Some(refinement.looks_every(&self.setting))
+    }
+
+    fn is_too_coarse(&mut self, state: &mut State) -> bool {
+        self.find_too_coarse(state)
+    }
+
+    fn refine(&mut self, state: &mut State) {
+        self.refine_further(state);
     }
 
     fn relax(&mut self, state: &mut State, stop: &AtomicBool, tell: &mut dyn FnMut(f64)) -> Result<(), SolverError> {

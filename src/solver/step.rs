@@ -131,11 +131,11 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         self.body.compute_and_move(&mut self.state, self.clock)
     }
 
-    /// Whether observers are given something at this time. Where the time step changes afterwards, it may turn out
+    /// Whether observers are given something at this time, or the mesh is looked at. Where the time step changes afterwards, it may turn out
     /// otherwise.
     fn will_be_observed(&self) -> bool {
         let is_due = |schedule: &Schedule| schedule.is_due(self.clock.time, self.clock.time_step);
-        is_due(&self.probes) || is_due(&self.snapshots) || self.ending().is_some()
+        is_due(&self.probes) || is_due(&self.snapshots) || is_due(&self.looks) || self.ending().is_some()
     }
 
     /// Whether nobody stops the run, cuts the specimen anew or changes the time step before the next step.
@@ -148,7 +148,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             || step.is_multiple_of(COMPARE_EVERY))
     }
 
-    fn step_unstable(&self) -> SolverError {
+    pub(super) fn step_unstable(&self) -> SolverError {
         SolverError::StepUnstable {
             step: self.clock.step,
             time: self.clock.time,

@@ -19,6 +19,10 @@ pub const RAMP: Ramp = Ramp::InitialVelocity;
 pub const TIME_STEP: TimeStep = TimeStep::Auto { fraction: 0.5 };
 pub const SUMMATION: Summation = Summation::Exact;
 pub const MASS: MassMatrix = MassMatrix::Lumped;
+/// Where elements become atoms, whose energy and angular momentum no other mass keeps.
+pub const MASS_OF_REFINED: MassMatrix = MassMatrix::Blend(1.0);
+pub const REFINE_ERROR: f64 = 0.02;
+pub const REFINE_AHEAD: u32 = 2;
 /// s
 pub const CHECKPOINT_EVERY: f64 = 60.0;
 /// ps

@@ -51,7 +51,8 @@ field_by_field! {
     Slot { from to }
     SeveredPlane { normal at from depth }
     Held { faces layers depth }
-    Resolution { element regions }
+    Resolution { element regions refine }
+    Refine { to error ahead }
     StrainRate { mode rate ramp sponge damping }
     MovingFace { face speed direction layers depth ramp }
     Traction { face stress pressure rise_time }

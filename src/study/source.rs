@@ -29,7 +29,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 23] = [
+pub static SHIPPED: [Shipped; 24] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml", "case-1/strains.csv"),
@@ -52,6 +52,12 @@ pub static SHIPPED: [Shipped; 23] = [
     ),
     shipped!(
         "models-A-E-mixed.yaml",
+        "models-A-E/table-5-2.csv",
+        "models-A-E/branching.csv",
+        "models-A-E/table-5-3.csv"
+    ),
+    shipped!(
+        "models-A-E-refined.yaml",
         "models-A-E/table-5-2.csv",
         "models-A-E/branching.csv",
         "models-A-E/table-5-3.csv"

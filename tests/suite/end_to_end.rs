@@ -14,6 +14,7 @@ mod pages;
 mod pictures;
 mod quickstart;
 mod ranks;
+mod refined;
 mod repeat;
 mod scaling;
 mod solids;

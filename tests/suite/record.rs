@@ -1,5 +1,6 @@
 //! Files of a run: to the bit, whole or an error, and readable by others.
 
+mod changing;
 mod checkpoint;
 mod interrupted;
 mod others;
@@ -40,6 +41,8 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         start: [number(6), number(7), number(8)],
         peak_work: f64::INFINITY,
         peak_imbalance: number(2),
+        refined_energy: number(5),
+        looks: 12,
         probes: 12,
         snapshots: 3,
         kept: Kept {
@@ -53,6 +56,9 @@ fn checkpoint(nodes: u64) -> Checkpoint {
             last_advance: number(3),
             farthest_tip: number(4),
             damage_front: 14.25,
+            earlier_work: number(6),
+            refined: vec![3, 4, 9],
+            outruns: 2,
             branched: f64::INFINITY,
             left_plane: 61.5,
         },
@@ -73,6 +79,9 @@ fn series(probes: std::ops::Range<u64>, bins: u64) -> Series {
         potential: number(index + 6),
         work: number(index + 7),
         cutoff_release: number(index + 8),
+        refined_energy: number(index + 11),
+        nodes: 1000.0 + index as f64,
+        outruns: 2.0,
         temperature: f64::NAN,
         j_integral: [number(index + 9), f64::NAN, number(index + 10)],
     };
@@ -159,6 +168,7 @@ fn frame(step: u64, mesh: &FieldMesh) -> Frame {
             .map(|cell| [number(cell), number(cell + step), number(cell * step)])
             .collect(),
         damage: (0..cells).map(|cell| cell as f64 / cells as f64).collect(),
+        mesh: None,
     }
 }
 

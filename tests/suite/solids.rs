@@ -77,6 +77,7 @@ fn settings(time: f64) -> Settings {
         time_step: TimeStep::Auto { fraction: 0.25 },
         summation: Summation::Exact,
         consistent_mass: 0.0,
+        refine: None,
         relax: false,
         until: Until {
             time: Some(time),

@@ -6,6 +6,7 @@ mod energy;
 mod exploding;
 mod factors;
 mod parted;
+mod refined;
 mod relaxed;
 
 use std::convert::Infallible;
@@ -58,6 +59,7 @@ fn settings(strain: f64) -> Settings {
         time_step: TimeStep::Auto { fraction: 0.5 },
         summation: Summation::Exact,
         consistent_mass: 0.0,
+        refine: None,
         relax: false,
         until: Until {
             strain: Some(strain),

@@ -143,6 +143,9 @@ pub fn crack_run(setting: &Setting, start: f64, element: f64) -> Series {
             potential: work + cutoff_release - kinetic + 1e-4 * work * (time * 0.05).sin(),
             work,
             cutoff_release,
+            refined_energy: 0.0,
+            nodes: 1000.0,
+            outruns: 0.0,
             temperature: if element < 2.0 { 10.0 * running } else { f64::NAN },
             j_integral: [0.98, 1.0, 1.02]
                 .map(|share| share * (intensity(strain) * setting.thickness).powi(2) / setting.young_modulus),

@@ -62,7 +62,10 @@ fn pictures<V: Vector>(arguments: &Arguments, study: &str, fields: &Path) -> Res
     let read = |error| CliError::Report(ReportError::Read(error));
     let (mesh, frames) = record::read_fields::<V>(fields).map_err(read)?;
     let which = if arguments.atoms { Sites::Atoms } else { Sites::All };
-    let sites = ovito::count(&mesh, which);
+    // A mesh that changes has most atoms at the end.
+    let last = frames.times().len().checked_sub(1).map(|last| frames.frame(last));
+    let last = last.transpose().map_err(read)?.and_then(|frame| frame.mesh);
+    let sites = ovito::count(last.as_ref().unwrap_or(&mesh), which);
     if sites == 0 {
         return Err(CliError::Input(format!(
             "case `{name}` has no single atoms; leave out `--atoms`"
@@ -78,7 +81,7 @@ fn pictures<V: Vector>(arguments: &Arguments, study: &str, fields: &Path) -> Res
     write(&path, |out| {
         for index in 0..number {
             match frames.frame(index) {
-                Ok(frame) => ovito::write(out, &mesh, &frame, which)?,
+                Ok(frame) => ovito::write(out, frame.mesh.as_ref().unwrap_or(&mesh), &frame, which)?,
                 Err(error) => {
                     damaged = Some(error);
                     break;

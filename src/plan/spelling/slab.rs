@@ -3,7 +3,7 @@
 use serde_json::{Value, json};
 
 use super::{length, quantity, ramp};
-use crate::study::case::{Crack, Edge, Grips, Lattice, Loading, Mode, NotchEnd, Region, RegionShape, Specimen};
+use crate::study::case::{Crack, Edge, Grips, Lattice, Loading, Mode, NotchEnd, Refine, Region, RegionShape, Specimen};
 use crate::units::Dimension;
 
 pub fn specimen(specimen: &Specimen) -> Value {
@@ -31,6 +31,11 @@ pub fn region(region: &Region) -> Value {
             json!({ "disc": { "center": center.map(length), "radius": length(radius), "element": element } })
         }
     }
+}
+
+pub fn refine(refine: &Refine) -> Value {
+    let Refine { error, ahead } = *refine;
+    json!({ "to": 1, "error": quantity(error, Dimension::Fraction), "ahead": ahead })
 }
 
 pub fn notch(crack: &Crack) -> Value {

@@ -12,6 +12,9 @@ impl Keep for Kept {
         // Taken apart by name, so that a new member cannot be forgotten here.
         let Kept {
             grip_impulses,
+            earlier_work,
+            refined,
+            outruns,
             absorbed,
             broken_bonds,
             parted_bonds,
@@ -28,12 +31,15 @@ impl Keep for Kept {
         ] {
             put(group, name, unit, &[numbers.len()], numbers, Packing::Plain)?;
         }
+        put(group, "refined", "1", &[refined.len()], refined, Packing::Plain)?;
+        put_scalar(group, "outruns", "1", *outruns)?;
         put(group, "joins", "1", &[joins.len()], joins, Packing::Plain)?;
         let shape = [broken_bonds.len(), 3];
         let broken = broken_bonds.as_flattened();
         put(group, "broken_bonds", "1", &shape, broken, Packing::Plain)?;
         put_bonds(&new_group(group, "parted_bonds")?, parted_bonds)?;
         for (name, unit, number) in [
+            ("earlier_work", "eV", earlier_work),
             ("last_advance", "ps", last_advance),
             ("farthest_tip", "nm", farthest_tip),
             ("damage_front", "nm", damage_front),
@@ -48,6 +54,9 @@ impl Keep for Kept {
     fn get(group: &Group) -> hdf5::Result<Self> {
         Ok(Self {
             grip_impulses: get(group, "grip_impulses")?,
+            earlier_work: get_scalar(group, "earlier_work")?,
+            refined: get(group, "refined")?,
+            outruns: get_scalar(group, "outruns")?,
             absorbed: get(group, "absorbed")?,
             broken_bonds: get_rows(group, "broken_bonds")?,
             parted_bonds: get_bonds(&group.group("parted_bonds")?)?,

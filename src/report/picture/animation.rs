@@ -66,11 +66,11 @@ impl Strip {
             return Ok(None);
         }
         let last = film.frame(count - 1)?;
-        let Some(view) = slab::view(&slab::positions(&film.mesh, &last), MARGIN * spacing) else {
+        let Some(view) = slab::view(&slab::positions(film.cells(&last), &last), MARGIN * spacing) else {
             return Ok(None);
         };
         let height = WIDTH as f64 * (view.y[1] - view.y[0]) / (view.x[1] - view.x[0]);
-        let limit = scale_end(Shade::Speed.quantile(&film.mesh, &last));
+        let limit = scale_end(Shade::Speed.quantile(film.cells(&last), &last));
         Ok(Some(Strip {
             view,
             size: [WIDTH, (height as usize).clamp(20, TALLEST)],
@@ -82,10 +82,16 @@ impl Strip {
     fn encode(&self, film: &Film, spacing: f64) -> Result<Vec<u8>, ReportError> {
         let paint = |index: usize| {
             let frame = film.frame(index)?;
-            let colours = Shade::Speed.colours(&film.mesh, &frame, self.limit);
+            let colours = Shade::Speed.colours(film.cells(&frame), &frame, self.limit);
             let empty = Shade::Speed.empty();
             Ok(slab::paint(
-                &film.mesh, &frame, spacing, self.view, &colours, empty, self.size,
+                film.cells(&frame),
+                &frame,
+                spacing,
+                self.view,
+                &colours,
+                empty,
+                self.size,
             ))
         };
         let pictures: Vec<_> = (0..film.moments().len()).into_par_iter().map(paint).collect();

@@ -23,13 +23,15 @@ pub enum Shade {
     Stress,
     /// Speed of the particles, m/s, from zero.
     Speed,
+    /// Atoms per edge of an element, from zero.
+    Size,
 }
 
 impl Shade {
     /// Of empty space: what is farthest from the colour at zero, so that a crack between idle faces shows.
     pub fn empty(self) -> [u8; 3] {
         match self {
-            Self::Stress => BLACK,
+            Self::Stress | Self::Size => BLACK,
             Self::Speed => WHITE,
         }
     }
@@ -47,6 +49,11 @@ impl Shade {
                 ends: [0.0, limit],
                 colour: palette::speed,
             },
+            Self::Size => Scale {
+                label: "atoms per edge",
+                ends: [0.0, limit],
+                colour: palette::speed,
+            },
         }
     }
 
@@ -60,7 +67,7 @@ impl Shade {
     /// them says nothing.
     pub fn colours_between_grips(self, mesh: &FieldMesh, frame: &Frame, limit: f64, height: f64) -> Vec<[u8; 3]> {
         let mut colours = self.colours(mesh, frame, limit);
-        if self == Self::Speed {
+        if self != Self::Stress {
             return colours;
         }
         let heights = || mesh.points.iter().map(|point| point[1]);
@@ -79,6 +86,7 @@ impl Shade {
 
     fn values(self, mesh: &FieldMesh, frame: &Frame) -> Vec<f64> {
         match self {
+            Self::Size => mesh.element_size.iter().map(|&size| f64::from(size)).collect(),
             Self::Stress => frame.stress.iter().map(|stress| stress[1] * GIGAPASCAL).collect(),
             Self::Speed => {
                 let speed = |ends: &[u32]| {

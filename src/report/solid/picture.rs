@@ -165,7 +165,7 @@ fn gallery(title: &str, wanted: &[Wanted], folder: &Path) -> Result<Gallery, Rep
     let mut top = 0.0;
     for picture in wanted {
         let frame = picture.film.frame(picture.frame)?;
-        top = f64::max(top, quantile(&values(picture.case, &picture.film.mesh, &frame)));
+        top = f64::max(top, quantile(&values(picture.case, picture.film.cells(&frame), &frame)));
     }
     let limit = scale_end(top);
     let pictures = wanted
@@ -228,7 +228,7 @@ impl Wanted<'_> {
     fn draw(&self, limit: f64, folder: &Path) -> Result<Option<Picture>, ReportError> {
         let Some(cells) = self.cells() else { return Ok(None) };
         let frame = self.film.frame(self.frame)?;
-        let mesh = &self.film.mesh;
+        let mesh = self.film.cells(&frame);
         let scale = scale(self.case, limit);
         let spacing = self.case.solid.specimen.spacing;
         let places = places(mesh, &frame);

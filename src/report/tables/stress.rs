@@ -38,5 +38,8 @@ pub fn against_strain(cases: &[Analysed]) -> Vec<Column> {
         rows.number("work_ev", |row| row.1.work),
         rows.number("cutoff_release_ev", |row| row.1.cutoff_release),
         rows.number("temperature_k", |row| row.1.temperature),
+        rows.number("refined_energy_ev", |row| row.1.refined_energy),
+        rows.number("nodes", |row| row.1.nodes),
+        rows.number("outruns", |row| row.1.outruns),
     ]
 }

@@ -37,7 +37,7 @@ impl Recorded<2> for Slab {
     }
 
     fn field_mesh(&self) -> FieldMesh {
-        field_mesh(self)
+        field_mesh(self.mesh())
     }
 
     fn write_frame(folder: &Path, moment: &Moment, site_volume: f64) -> Result<(), RecordError> {
@@ -86,12 +86,16 @@ impl Picture for Snapshot<'_> {
     fn damage(&self) -> Cow<'_, [f64]> {
         Cow::Owned(damage(self.moment.mesh, self.moment.broken))
     }
+
+    fn mesh(&self) -> Option<Cow<'_, FieldMesh>> {
+        let changes = self.moment.mesh_changes;
+        changes.then(|| Cow::Owned(field_mesh(self.moment.mesh)))
+    }
 }
 
 /// Cells and reference positions, x from the left edge and y from the crack plane.
-fn field_mesh(slab: &Slab) -> FieldMesh {
-    let mesh = slab.mesh();
-    let [left, middle] = [slab.setting().left_x, mesh.middle_height()];
+fn field_mesh(mesh: &Mesh) -> FieldMesh {
+    let [left, middle] = [mesh.sites.left() * mesh.spacing, mesh.middle_height()];
     let [x, y] = mesh.node_positions();
     let mut offsets = vec![0];
     for element in &mesh.elements {

@@ -86,6 +86,10 @@ impl Picture<[f64; 3]> for Snapshot<'_> {
         let broken = self.moment.broken;
         Cow::Owned(self.elements().map(|number| broken[number]).collect())
     }
+
+    fn mesh(&self) -> Option<Cow<'_, FieldMesh<[f64; 3]>>> {
+        None
+    }
 }
 
 /// The cells of a shape by its corners: an octahedron is two pyramids on one square, its corners +U, -U, +V, -V, +W, -W.

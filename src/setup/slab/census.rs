@@ -87,6 +87,20 @@ impl Census {
         }
     }
 
+    /// The same with so many sites of its triangles as atoms.
+    pub fn with_atoms(&self, atoms: f64) -> Self {
+        let held = |size: i32| f64::from(size * (size + 1) / 2);
+        let in_triangles = self.weigh(|size| if size == 1 { 0.0 } else { held(size) });
+        let share = (atoms / in_triangles.max(1.0)).min(1.0);
+        let of_atoms = self.weigh(|size| f64::from(u8::from(size == 1))) + share * in_triangles;
+        let triangles = self.elements.iter().filter(|(size, _)| *size > 1);
+        let left = triangles.map(|&(size, number)| (size, (1.0 - share) * number));
+        Self {
+            elements: left.chain([(1, of_atoms)]).collect(),
+            ..self.clone()
+        }
+    }
+
     pub fn element_count(&self) -> u64 {
         self.sum(|_| 1.0)
     }

@@ -3,7 +3,7 @@
 use super::census::{Census, MESHED};
 use super::geometry::{self, Geometry, Notch};
 use super::leftovers::Leftovers;
-use super::{material, mesh_plan, settings};
+use super::{material, mesh_plan, refined, settings};
 use crate::forces::Summation;
 use crate::lattice::triangular;
 use crate::loading::{Grip, Stretching, longest_step};
@@ -72,8 +72,15 @@ impl Estimator {
         let longest = longest_step(rate, plan.height_between_grips(), is_ramped, plan.spacing);
         let (specimen, census) = self.lay_out(case, slab, &plan);
         refuse_a_notch_beyond_the_end(case, &specimen.geometry)?;
-        let stability_limit = self.stability_limit(case, slab, &census, &material)?;
-        estimate_with(case, slab, &material, specimen, &census, [stability_limit, longest])
+        // What becomes atoms on the way does so evenly, and is there in full in the end.
+        let growth = refined::growth(slab, &case.run.until, &material);
+        let atoms = growth.map_or(0.0, |growth| growth.atoms);
+        let censuses = match growth {
+            None => [census.clone(), census],
+            Some(_) => [0.5, 1.0].map(|share| census.with_atoms(share * atoms)),
+        };
+        let stability_limit = self.stability_limit(case, slab, &censuses[1], &material)?;
+        estimate_with(case, slab, &material, specimen, &censuses, [stability_limit, longest])
     }
 
     /// The specimen of a case; an error is that of [`Self::estimate`].
@@ -187,12 +194,13 @@ fn bare(plan: &Plan) -> Plan {
     }
 }
 
+/// With the elements that there are in the mean and at the end.
 fn estimate_with(
     case: &Case,
     slab: &Slab,
     material: &Material,
     specimen: Specimen,
-    census: &Census,
+    [mean, census]: &[Census; 2],
     [stability_limit, longest]: [f64; 2],
 ) -> Result<Expected<Specimen>, SetupError> {
     let case::Loading::StrainRate { rate, .. } = slab.loading;
@@ -221,7 +229,7 @@ fn estimate_with(
         steps,
         memory_bytes: census.memory() * u64::from(ranks(case)),
         disk_bytes: disk(case, slab, census, material.spacing, [time, steps as f64]),
-        seconds: SECONDS_A_RUN + seconds_of_probes + census.weigh(of_element) * steps as f64,
+        seconds: SECONDS_A_RUN + seconds_of_probes + mean.weigh(of_element) * steps as f64,
     })
 }
 

@@ -11,6 +11,12 @@ use crate::loading::Load;
 pub struct Kept {
     /// Impulse with which every node in the grips was pulled so far, the lower grip first, eV ps/nm.
     pub grip_impulses: Vec<f64>,
+    /// Work done before the mesh last changed, eV; what follows counts from there.
+    pub earlier_work: f64,
+    /// The triangles of the mesh of the start that have become atoms, ascending.
+    pub refined: Vec<u32>,
+    /// How many interfaces between triangles had opened when it was looked at them.
+    pub outruns: u64,
     /// Kinetic energy that the sponges have taken from each of their elements so far, eV.
     pub absorbed: Vec<f64>,
     /// Bonds broken at the last probe, ascending (column, row, direction).
@@ -38,6 +44,12 @@ impl Slab {
         let crack = probes.crack.as_ref();
         Kept {
             grip_impulses: self.loading.impulses(ranks),
+            earlier_work: self.loading.earlier_work(),
+            refined: self
+                .refinement
+                .as_ref()
+                .map_or_else(Vec::new, |refinement| refinement.refined().to_vec()),
+            outruns: self.outruns(),
             absorbed: self.loading.absorbed(ranks),
             broken_bonds: probes.broken.clone(),
             parted_bonds: crack.map_or_else(Vec::new, Crack::parted),
@@ -54,6 +66,10 @@ impl Slab {
         self.forces.restore_open_interfaces(open_interfaces);
         let nodes = self.forces.domain().nodes();
         self.loading.belong_to(&nodes, &kept.grip_impulses, &kept.absorbed);
+        self.loading.restore_earlier_work(kept.earlier_work);
+        if let Some(refinement) = &mut self.refinement {
+            refinement.restore_outruns(kept.outruns);
+        }
         let probes = &mut self.probes;
         probes.broken.clone_from(&kept.broken_bonds);
         probes.crack = Crack::new(&self.setting);

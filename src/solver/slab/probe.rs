@@ -102,12 +102,15 @@ impl ProfileLine {
     ///
     /// The stress of a triangle is one value, of its centre, and counts in the bin of that with all its sites; an atom stands
     /// for one spacing along its row, and counts in every bin with its share of that.
-    pub fn new(mesh: &Mesh, setting: &Setting) -> Self {
-        let size = f64::from(setting.element_at_crack);
+    ///
+    /// `element`: atoms an edge along the crack plane of the mesh of the start. Where it has been refined since, the same bins
+    /// hold the atoms of the same rows.
+    pub fn new(mesh: &Mesh, setting: &Setting, element: u32) -> Self {
+        let size = f64::from(element);
         let wanted = (0.5 * (size + 1.0)).max(2.0) * setting.spacing;
         let bins = Bins::no_narrower_than(wanted, setting.length);
         let middle = mesh.sites.middle_row();
-        let reach = (setting.element_at_crack as i32).max(2);
+        let reach = (element as i32).max(2);
         let mut members = Vec::new();
         for (number, element) in mesh.elements.iter().enumerate() {
             let rows = element.lowest_row()..element.lowest_row() + element.size;

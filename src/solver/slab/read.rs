@@ -89,6 +89,10 @@ impl Instruments<2> for Slab {
         self.kept()
     }
 
+    fn go_to_mesh_of(&mut self, kept: &Kept, nodes: usize, state: &mut State) -> Result<(), &'static str> {
+        self.go_to_refined(&kept.refined, nodes, state)
+    }
+
     fn check_is_own(&self, open_interfaces: &[u32], kept: &Kept) -> Result<(), &'static str> {
         self.refuse_foreign(open_interfaces, kept)
     }
@@ -135,6 +139,7 @@ impl Slab {
             ..
         } = *totals;
         let [sigma_xx, sigma_yy, sigma_xy] = stress;
+        let outruns = self.outruns() as f64;
         let mesh = self.forces.mesh();
         let area = probe::mean_length(mesh) * self.setting.thickness;
         let probes = &mut self.probes;
@@ -150,6 +155,9 @@ impl Slab {
             potential: balance.potential,
             work: balance.work,
             cutoff_release: balance.cutoff_release,
+            refined_energy: balance.refined,
+            nodes: mesh.node_count() as f64,
+            outruns,
             temperature: probes.thermometer.read(state),
             j_integral: match (rings, &mut probes.j_integral) {
                 (Some(rings), Some(integral)) => integral.evaluate(mesh, state, rings),

@@ -163,7 +163,7 @@ mod tests {
         let setting = setting(&mesh, &material, &loading, 1.0);
         let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
         state.position[1].iter_mut().for_each(|y| *y *= 1.0 + STRAIN);
-        let profile = ProfileLine::new(&mesh, &setting);
+        let profile = ProfileLine::new(&mesh, &setting, setting.element_at_crack);
         let traction = Traction::new(&mesh, &material, &profile, &setting);
         let found = traction.read(&material, &state);
         let mut forces = Forces::new(mesh, material);

@@ -53,6 +53,17 @@ pub struct Resolution {
     pub element: u32,
     /// Where another, finer element is used. The finest region that holds a site decides.
     pub regions: Vec<Region>,
+    /// What becomes atoms on the way; `None`: nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub refine: Option<Refine>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Refine {
+    /// Largest error of the strain in an element, over what its bonds have left before they give way.
+    pub error: f64,
+    /// Layers of elements around those with a larger one that become atoms with them.
+    pub ahead: u32,
 }
 
 #[derive(Clone, Debug, PartialEq, Serialize)]

@@ -1,6 +1,9 @@
 //! Elements, and where finer ones are.
 
-use super::super::{quantity::Length, reader::Given};
+use super::super::{
+    quantity::{Fraction, Length},
+    reader::Given,
+};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
@@ -12,6 +15,21 @@ pub struct Resolution {
     pub element: Given<u32>,
     /// Where finer elements are used; the finest region that holds a site decides.
     pub regions: Given<Vec<Given<Region>>>,
+    /// Elements of a slab become atoms on the way, where its crack comes.
+    pub refine: Given<Refine>,
+}
+
+/// Which elements become atoms while the specimen moves.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Refine {
+    /// Atoms per edge of what they become: 1, single atoms.
+    pub to: Given<u32>,
+    /// Largest error of the strain in an element, told by the difference to its neighbours, over what its bonds have left
+    /// before they give way; `2 %` where left out.
+    pub error: Given<Fraction>,
+    /// How many layers of elements around those with too large an error become atoms with them; 2 where left out.
+    pub ahead: Given<u32>,
 }
 
 /// A part of the specimen. In a slab x is measured from the left edge, y from the crack plane; in a solid all is measured from

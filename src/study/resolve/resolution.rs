@@ -28,9 +28,11 @@ impl Check<'_> {
                 regions.into_iter().collect()
             }
         };
+        let refine = self.refine(&values.refine, element);
         Some(Resolution {
             element: element?.0,
             regions: regions?,
+            refine: refine?,
         })
     }
 

@@ -20,6 +20,13 @@ impl Check<'_> {
         let crack = self.crack(&case.crack, &specimen);
         let loading = self.loading(&case.loading, place, &specimen);
         let (run, stops) = self.run(&case.run, place);
+        let refines = resolution
+            .as_ref()
+            .is_some_and(|resolution| resolution.refine.is_some());
+        let run = match refines {
+            true => run.and_then(|run| self.run_of_refined(run, &case.run)),
+            false => run,
+        };
         if let (Some(stops), Some(crack)) = (stops, &crack) {
             self.stops(stops, crack.as_ref(), &specimen);
         }

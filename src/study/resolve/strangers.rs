@@ -88,6 +88,11 @@ impl Check<'_> {
                 self.refuse(place, &message, help);
             }
         }
+        if let Some(resolution) = case.resolution.right() {
+            let message = "elements of a solid cannot become atoms on the way yet";
+            let help = "put single atoms where something will break: `regions: [{slab: {…, element: 1}}]`";
+            self.refuse(resolution.refine.place(), message, help);
+        }
         let crack = "`crack` is for a slab: in a solid no crack is followed along a line";
         let help = "cut a solid with `notch: {plane: {normal: a2, at: 40 nm, from: a1-low, depth: 20 nm}}`";
         self.refuse(case.crack.place(), crack, help);

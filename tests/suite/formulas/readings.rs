@@ -82,6 +82,7 @@ fn stretched() -> Solver {
         time_step: TimeStep::Auto { fraction: 0.5 },
         summation: Summation::Exact,
         consistent_mass: 0.0,
+        refine: None,
         relax: false,
         until: Until {
             time: Some(0.01),

@@ -76,6 +76,8 @@ fn a_checkpoint_of_a_solid_reads_back_to_the_bit() {
         start: [number(4), number(5), number(6)],
         peak_work: number(7),
         peak_imbalance: number(8),
+        refined_energy: 0.0,
+        looks: 0,
         probes: 3,
         snapshots: 1,
         kept: Kept {
@@ -111,6 +113,7 @@ fn frame(step: u64) -> Frame<[f64; 3]> {
             .map(|cell| [0, 1, 2, 3, 4, 5].map(|part| number(10 * cell + part + step)))
             .collect(),
         damage: vec![0.0, 0.5, 1.0],
+        mesh: None,
     }
 }
 

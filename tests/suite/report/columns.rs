@@ -25,7 +25,7 @@ pub const COLUMNS: [(&str, &str); 11] = [
     (
         "stress_strain",
         "case,time_ps,strain,sigma_xx_gpa,sigma_yy_gpa,kinetic_energy_ev,potential_energy_ev,work_ev,\
-         cutoff_release_ev,temperature_k",
+         cutoff_release_ev,temperature_k,refined_energy_ev,nodes,outruns",
     ),
     (
         "wave_arrival",

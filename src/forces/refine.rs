@@ -1,0 +1,110 @@
+//! Where triangles are too coarse for what they carry, and the forces on a mesh in which some have become atoms.
+
+use rayon::prelude::*;
+
+use super::affine::Affine;
+use super::interface::{Pair, State};
+use super::{CHUNK, Forces, Planes};
+use crate::lattice::triangular;
+use crate::mesh::Mesh;
+
+impl Forces {
+    /// For every triangle how far its strain may be off, over what its bonds have left before they give way: the largest
+    /// difference |F - F'| between its deformation gradient and that of a triangle along one of its edges, over the critical
+    /// strain less the largest strain of a nearest-neighbour bond in either and between them. A linear interpolation is off by
+    /// about half of the difference to the next element. Infinite where a bond has nothing left or an interface has opened.
+    /// An even strain has no error, nor has a triangle on whose edges nothing but atoms, faces and grips border.
+    ///
+    /// It depends on nothing but positions and on which interfaces are open. All ranks must know the positions of all nodes,
+    /// and get the same.
+    pub fn strain_errors(&self, position: &Planes) -> Vec<f64> {
+        let critical = self.material.critical_strain();
+        let numbers = (0..self.interfaces.pairs.len()).into_par_iter().with_min_len(CHUNK);
+        let of_interfaces: Vec<f64> = numbers
+            .map(|number| self.error_across(number, critical, position))
+            .collect();
+        let triangles = (0..self.mesh.triangles).into_par_iter().with_min_len(CHUNK);
+        let of_triangle = |triangle: usize| {
+            let errors = self.interfaces.of(triangle).iter();
+            errors.map(|&number| of_interfaces[number as usize]).fold(0.0, f64::max)
+        };
+        triangles.map(of_triangle).collect()
+    }
+
+    /// What [`Self::strain_errors`] says of an interface.
+    fn error_across(&self, number: usize, critical: f64, position: &Planes) -> f64 {
+        let pair = self.interfaces.pairs[number];
+        // What the grips hold has the strain that they give it.
+        let is_held = |triangle: u32| self.mesh.grip_of(&self.mesh.elements[triangle as usize]) != 0;
+        if pair.severed || pair.both().into_iter().any(is_held) {
+            return 0.0;
+        }
+        if self.states[number] == State::Open {
+            return f64::INFINITY;
+        }
+        let nearest = |bond: [i32; 2]| triangular::squared_length(bond) == 1;
+        let strings = || {
+            self.interfaces
+                .strings(number)
+                .iter()
+                .filter(|string| nearest(string.bond))
+        };
+        // At a corner there is one bond.
+        if strings().all(|string| string.count < 2) {
+            return 0.0;
+        }
+        let spacing = self.mesh.spacing;
+        let both = pair.both().map(|triangle| {
+            let map = Affine::of_triangle(&self.mesh, triangle as usize, position);
+            let gradient = map.deformation_gradient(self.mesh.elements[triangle as usize].sign, spacing);
+            (map, gradient)
+        });
+        let inside = both
+            .iter()
+            .flat_map(|(map, _)| [[1, 0], [0, 1], [-1, 1]].map(|bond| map.vector(bond)));
+        let across = Pair::new(&self.mesh, &self.interfaces, number, position);
+        let between = strings().flat_map(|string| {
+            let [start, change] = across.string_vectors(string);
+            let last = f64::from(string.count - 1);
+            [start, [start[0] + last * change[0], start[1] + last * change[1]]]
+        });
+        let longest = inside.chain(between).map(|[x, y]| x * x + y * y).fold(0.0, f64::max);
+        let left = critical - (longest.sqrt() / spacing - 1.0);
+        let [(_, one), (_, other)] = both;
+        let differences = one
+            .iter()
+            .flatten()
+            .zip(other.iter().flatten())
+            .map(|(a, b)| (a - b) * (a - b));
+        match left > 0.0 {
+            true => differences.sum::<f64>().sqrt() / left,
+            // Also where the positions are not numbers.
+            false => f64::INFINITY,
+        }
+    }
+
+    /// Interfaces between triangles that have opened, without those that a cut severs.
+    pub fn opened_interfaces(&self) -> usize {
+        let loosened = self.loosened.iter().map(|&number| number as usize);
+        loosened
+            .filter(|&number| self.is_open(number) && !self.interfaces.pairs[number].severed)
+            .count()
+    }
+
+    /// All pairs of triangles that border on each other, and whether a cut severs them.
+    pub fn neighbours(&self) -> impl Iterator<Item = ([u32; 2], bool)> {
+        self.interfaces.pairs.iter().map(|pair| (pair.both(), pair.severed))
+    }
+
+    /// Goes over to another mesh of the same sites, in which no interface is open but those that a cut severs. All ranks must
+    /// know the state of all nodes.
+    pub fn go_over_to(&mut self, mesh: Mesh) {
+        let next = Self::shared(self.domain.ranks(), mesh, self.material, self.summation);
+        let before = std::mem::replace(self, next);
+        self.domain.hear_after(&before.domain);
+        self.first_cut = before.first_cut;
+        (self.searches, self.search_time) = (before.searches, before.search_time);
+        (self.exchanges, self.exchange_time) = (before.exchanges, before.exchange_time);
+        self.spent = before.spent;
+    }
+}

@@ -1,0 +1,46 @@
+//! A finer mesh on the way.
+
+use std::time::Instant;
+
+use super::Solver;
+use super::body::Instruments;
+use super::cost::Phase;
+use super::error::SolverError;
+
+impl<B: Instruments<D>, const D: usize> Solver<B, D> {
+    /// Where it is time to look, goes over to a finer mesh if the present one is too coarse for what it carries. All ranks decide
+    /// alike, from the state alone, and at times that are fixed. A shorter step follows at once from what is stiffer.
+    pub(super) fn refine(&mut self) -> Result<(), SolverError> {
+        if self.body.looks_every().is_none() || !self.looks.take(self.clock.time, self.clock.time_step, false) {
+            return Ok(());
+        }
+        let mut clock = Instant::now();
+        self.settle();
+        if self.body.is_too_coarse(&mut self.state) {
+            if !self.measured {
+                self.compute(true).map_err(|source| self.blow_up(source))?;
+            }
+            let before = self.energies();
+            self.body.refine(&mut self.state);
+            self.compute(true).map_err(|source| self.blow_up(source))?;
+            let after = self.energies();
+            self.ledger.refine(before, after);
+            self.stability_limit = self.body.stability_limit(&self.state);
+            let adapted = self
+                .settings
+                .time_step
+                .adapt(self.clock.time_step, self.stability_limit);
+            self.clock.time_step = adapted.ok_or_else(|| self.step_unstable())?;
+        }
+        self.cost.book(Phase::Refinement, &mut clock);
+        Ok(())
+    }
+
+    /// Potential energy, eV, pairs within the cutoff, and kinetic energy, eV.
+    fn energies(&self) -> [f64; 3] {
+        let [potential, pairs] = self.body.stored();
+        let (domain, state) = (self.body.domain(), &self.state);
+        let [kinetic] = domain.sum_nodes(|node| [state.kinetic_energy_of(node)]);
+        [potential, pairs, kinetic]
+    }
+}
