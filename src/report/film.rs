@@ -9,7 +9,8 @@ use crate::record::{FrameReader, RecordError};
 /// A mesh and frames on it in order of time, of which a large run's are read one by one.
 #[derive(Clone)]
 pub struct Film<V: Vector = [f64; 2]> {
-    mesh: FieldMesh<V>,
+    /// The cells of the run. Frames may have their own: see [`Self::cells`].
+    pub mesh: FieldMesh<V>,
     frames: Frames<V>,
 }
 
