@@ -12,6 +12,7 @@ mod ahead;
 mod bonds;
 mod bulk;
 mod certified;
+mod close;
 mod contact;
 mod interface;
 mod kinds;
@@ -46,6 +47,7 @@ use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
 use bulk::BulkBonds;
 use certified::Certificate;
+use close::Close;
 use contact::Contacts;
 use contact::lattice::AtomLattice;
 use interface::{IntactLimit, State};
@@ -94,6 +96,9 @@ pub struct Forces {
     contacts: Contacts,
     tiles: Vec<Tile>,
     limit: IntactLimit,
+    close: Close,
+    /// How much close bonds stiffen the sites of all ranks at the positions of the last forces.
+    close_level: u32,
     /// Interfaces that are not tight, ascending.
     loosened: Vec<u32>,
     /// Interfaces of my triangles that are tested in every step.
@@ -179,6 +184,8 @@ impl Forces {
             atoms,
             contacts: Contacts::default(),
             tiles,
+            close: Close::new(&material),
+            close_level: 0,
             limit,
             loosened: Vec::new(),
             watched: Vec::new(),
@@ -301,6 +308,12 @@ impl Forces {
         self.watched = watched;
         include(&mut self.loosened, changed.to_vec());
         self.certain_is_current = false;
+    }
+
+    /// What bonds closer than in a regular lattice may have added to the squared highest frequency when forces were last
+    /// computed, 1/ps^2, the same on all ranks; with lumped masses.
+    pub fn squared_frequency_of_close_bonds(&self) -> f64 {
+        self.close.squared_frequency(self.close_level, self.material.site_mass)
     }
 
     /// Whether an interface is one of my triangles'.

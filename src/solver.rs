@@ -70,8 +70,12 @@ pub struct Solver<B: Instruments<D> = Slab, const D: usize = 2> {
     state: State<D>,
     settings: Settings,
     clock: Clock,
-    /// Bound of the time step when it was last looked at, ps.
+    /// Bound of the time step when it was last looked at, ps, without close bonds.
     stability_limit: f64,
+    /// An automatic time step is never longer, ps.
+    longest_step: f64,
+    /// The time step after the next one, ps.
+    step_after_next: f64,
     /// Half a kick that the velocities still lack, ps.
     due_kick: Option<f64>,
     /// Whether the motion of the next step has been done with the forces of this one.
@@ -108,6 +112,8 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
                 time_step,
             },
             stability_limit,
+            longest_step: time_step,
+            step_after_next: time_step,
             due_kick: None,
             is_ahead: false,
             measured: true,
@@ -219,6 +225,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         self.stability_limit = self.body.stability_limit(&self.state);
         let longest = self.body.load().longest_step(self.body.spacing());
         self.clock.time_step = self.settings.time_step.choose(self.stability_limit, longest)?;
+        self.step_after_next = self.clock.time_step;
         self.cost.book(Phase::SetUp, &mut clock);
         Ok(true)
     }

@@ -34,6 +34,7 @@ use std::time::Duration;
 use pulp::Arch;
 
 use super::Summation;
+use super::close::Close;
 use crate::domain::{Domain, Halo, Ranks};
 use crate::material::Material;
 use crate::mesh::solid::Solid;
@@ -84,6 +85,9 @@ pub struct Forces {
     farthest: f64,
     /// The squared highest frequency of the crystal at rest, 1/ps^2, once it has been asked for.
     frequency_at_rest: OnceLock<f64>,
+    close: Close,
+    /// How much close bonds stiffen the points of all ranks at the positions of the last forces.
+    close_level: u32,
     arch: Arch,
     searches: u64,
     search_time: Duration,
@@ -125,6 +129,8 @@ impl Forces {
             tiles: sweep::tiles(&mesh, &interfaces, domain.grouped(), rayon::current_num_threads()),
             halo: Halo::ask(&domain, &mesh, &bordering),
             farthest: FARTHEST * largest,
+            close: Close::new(&material),
+            close_level: 0,
             mesh,
             domain,
             bordering,
@@ -172,6 +178,12 @@ impl Forces {
 
     pub fn interface_count(&self) -> usize {
         self.intact.len()
+    }
+
+    /// What bonds closer than in a regular lattice may have added to the squared highest frequency when forces were last
+    /// computed, 1/ps^2, the same on all ranks.
+    pub fn squared_frequency_of_close_bonds(&self) -> f64 {
+        self.close.squared_frequency(self.close_level, self.material.site_mass)
     }
 
     /// The parts on both sides of an interface.

@@ -65,6 +65,7 @@ impl Forces {
         loop {
             let changed = self.changed_interfaces(&irregular, position);
             let mut disturbed = Vec::new();
+            self.domain.hears_level();
             if !changed.is_empty() {
                 self.domain.call(Call::InterfaceChanged);
             } else if !self.contacts.are_current(position) {
@@ -75,6 +76,7 @@ impl Forces {
                     law,
                     regular: self.limit.regular,
                     untouched: self.limit.untouched,
+                    close: self.close,
                     mesh: &self.mesh,
                     domain: &self.domain,
                 };
@@ -82,9 +84,11 @@ impl Forces {
                 let atoms = motion
                     .as_deref_mut()
                     .map(|motion| motion.of_atoms(&self.looked_at_atoms));
-                (disturbed, self.left_atoms) = self
+                let found = self
                     .contacts
                     .sum::<S, MEASURED>(&field, position, force, measure, atoms);
+                (disturbed, self.left_atoms) = (found.disturbed, found.left);
+                self.domain.call_level(found.level);
                 self.spent[1] += start.elapsed().as_secs_f64();
                 if !disturbed.is_empty() {
                     self.domain.call(Call::ListOutdated);
@@ -103,6 +107,7 @@ impl Forces {
                 break;
             }
         }
+        self.close_level = self.domain.hears_level();
         self.contacts.add_to(&self.mesh, &self.domain, force, measure);
         irregular.extend(changed_beside);
         Ok(irregular)

@@ -47,6 +47,10 @@ pub trait Body<const D: usize> {
     /// Largest stable time step of a state whose forces have just been computed, ps, the same on all ranks.
     fn stability_limit(&self, state: &State<D>) -> f64;
 
+    /// What close bonds may add to the squared highest frequency of a state whose forces have just been computed, 1/ps^2, the
+    /// same on all ranks.
+    fn stiffened(&self, state: &State<D>) -> f64;
+
     /// Whether ranks have had unequal work since they were last asked. All must be asked together.
     fn is_unbalanced(&mut self) -> bool {
         false

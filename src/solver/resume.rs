@@ -58,6 +58,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         self.state.velocity.clone_from(velocity);
         self.body.restore(&checkpoint.open_interfaces, &checkpoint.kept);
         self.compute(false).map_err(|source| self.blow_up(source))?;
+        self.follow_again();
         self.ledger
             .restore(checkpoint.start, checkpoint.peak_work, checkpoint.peak_imbalance);
         self.probes.restore(checkpoint.probes, checkpoint.step);

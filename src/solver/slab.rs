@@ -253,6 +253,12 @@ impl Body<2> for Slab {
         time_step::nine_digits(self.forces.squared_frequency_bound_one_by_one(state))
     }
 
+    /// What nodes of coupled masses move against each other has the least part of them.
+    fn stiffened(&self, state: &State) -> f64 {
+        let shares = state.coupled.iter().map(|coupled| coupled.share);
+        self.forces.squared_frequency_of_close_bonds() / (1.0 - 3.0 * shares.fold(0.0, f64::max))
+    }
+
     fn is_unbalanced(&mut self) -> bool {
         self.forces.is_unbalanced()
     }

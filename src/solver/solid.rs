@@ -214,6 +214,10 @@ impl Body<3> for Solid {
         time_step::nine_digits(self.forces.squared_frequency_bound(&state.position))
     }
 
+    fn stiffened(&self, _state: &State<3>) -> f64 {
+        self.forces.squared_frequency_of_close_bonds()
+    }
+
     /// Under its loading at the time 0.
     fn relax(&mut self, state: &mut State<3>, stop: &AtomicBool, tell: &mut dyn FnMut(f64)) -> Result<(), SolverError> {
         let target = Target {

@@ -4,7 +4,7 @@ use crate::integrator::stability_limit;
 /// How the time step is chosen.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum TimeStep {
-    /// This fraction of the stability limit; made shorter if the specimen stiffens, as what collides does.
+    /// This fraction of the stability limit of the start; shorter while the specimen is stiffer, as what collides is.
     Auto { fraction: f64 },
     /// ps; refused above the limit, and the end of the run when the limit falls below it.
     Given(f64),
@@ -16,19 +16,6 @@ const CHECK_FAR_EVERY: u64 = 400;
 
 /// From here to the limit itself the stiffness has to grow 2.8 times.
 const FAR: f64 = 0.6;
-
-/// Steps between looks at the forces of an automatic time step.
-const FOLLOW_EVERY: u64 = 20;
-
-/// Where a force moves its node by more than this share of the lattice spacing within a step, parts collide, and are stiffer
-/// than the crystal: while cracks run it is seen in half a per cent of the looks, and where it is not seen, the limit has not
-/// been found within [`NEAREST`] of the time step.
-const ROUGH: f64 = 0.03;
-
-/// Whether a push, as a share of the spacing, calls for a look at the stability limit.
-pub fn is_rough(push: f64) -> bool {
-    push > ROUGH
-}
 
 /// How near to the limit an automatic time step may come before it is made shorter.
 const NEAREST: f64 = 0.75;
@@ -60,19 +47,39 @@ impl TimeStep {
         step.is_multiple_of(every)
     }
 
-    /// Whether to look at the forces after this step, by which [`is_rough`] tells that the limit may have fallen meanwhile.
-    pub fn follows_forces(self, step: u64) -> bool {
-        matches!(self, Self::Auto { .. }) && step.is_multiple_of(FOLLOW_EVERY)
-    }
-
-    /// The time step from here on, never longer than before; `None` where a given one has become unstable.
-    pub fn adapt(self, present: f64, limit: f64) -> Option<f64> {
+    /// The time step after the next one, of which the longest is `longest`; `None` where a given one has become unstable.
+    pub fn follow(self, longest: f64, limit: f64) -> Option<f64> {
         match self {
-            Self::Auto { fraction } if present > NEAREST.max(fraction) * limit => Some(fraction * limit),
-            Self::Auto { .. } => Some(present),
+            Self::Auto { fraction } => Some(longest.min(NEAREST.max(fraction) * limit)),
             Self::Given(given) => (given <= limit).then_some(given),
         }
     }
+}
+
+/// The stability limit where close bonds add this to the squared highest frequency, 1/ps^2.
+pub fn with_close_bonds(limit: f64, added: f64) -> f64 {
+    match added > 0.0 {
+        true => stability_limit(squared_frequency(limit) + added),
+        false => limit,
+    }
+}
+
+/// The stability limit without what close bonds add to the squared highest frequency. A look, which has found `found`, sees them
+/// too, and may have seen them elsewhere than where the specimen is stiffest: then it is not above what it was `before`, as far
+/// as that is above what was found.
+pub fn without_close_bonds(found: f64, added: f64, before: f64) -> f64 {
+    match added > 0.0 {
+        true => {
+            let rest = squared_frequency(found) - added;
+            stability_limit(rest.max(squared_frequency(before.max(found))))
+        }
+        false => found,
+    }
+}
+
+/// For which a limit is the stability limit.
+fn squared_frequency(limit: f64) -> f64 {
+    4.0 / (limit * limit)
 }
 
 #[cfg(test)]
@@ -80,7 +87,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_given_step_is_never_above_the_limit_and_an_automatic_one_only_shrinks() {
+    fn a_given_step_is_never_above_the_limit_and_an_automatic_one_follows_it() {
         let given = TimeStep::Given(0.2);
         let refused = given.choose(0.1, 1.0);
         assert_eq!(refused, Err(SolverError::StepTooLong { given: 0.2, limit: 0.1 }));
@@ -90,12 +97,12 @@ mod tests {
             longest,
         };
         assert_eq!(given.choose(0.3, longest), Err(outrun));
-        assert_eq!([given.adapt(0.2, 0.3), given.adapt(0.2, 0.1)], [Some(0.2), None]);
+        assert_eq!([given.follow(1.0, 0.3), given.follow(1.0, 0.1)], [Some(0.2), None]);
         let auto = TimeStep::Auto { fraction: 0.75 };
         assert_eq!([auto.choose(8.0, 7.0), auto.choose(8.0, 5.0)], [Ok(6.0), Ok(5.0)]);
-        assert_eq!(auto.adapt(6.0, 16.0), Some(6.0));
-        assert_eq!(auto.adapt(6.0, 8.0), Some(6.0));
-        assert_eq!(auto.adapt(6.0, 4.0), Some(3.0));
+        assert_eq!([16.0, 8.0, 4.0].map(|limit| auto.follow(6.0, limit)), [6.0, 6.0, 3.0].map(Some));
+        let half = TimeStep::Auto { fraction: 0.5 };
+        assert_eq!([8.0, 4.0].map(|limit| half.follow(4.0, limit)), [4.0, 3.0].map(Some));
     }
 
     #[test]

@@ -15,7 +15,8 @@ use super::inside::within;
 use super::measure::{Held, PARTS};
 use super::points::Points;
 use super::vector::Vector;
-use crate::lanes::{Lanes, MOST};
+use crate::forces::close::{self, Close};
+use crate::lanes::{Lanes, MOST, Mask};
 use crate::potential::{CutPotential, PairShape};
 
 /// Where the point is that stands for no partner: too far away for anything.
@@ -190,8 +191,9 @@ impl Pairs {
         self.drift = drift;
     }
 
-    /// Sums the forces on the points; in steps that are `MEASURED` also what their elements hold of the pairs.
-    pub fn sum<S: PairShape, const MEASURED: bool>(&mut self, arch: Arch, law: &CutPotential<S>) {
+    /// Sums the forces on the points; in steps that are `MEASURED` also what their elements hold of the pairs. Returns how much
+    /// close bonds stiffen the points: see [`Close`].
+    pub fn sum<S: PairShape, const MEASURED: bool>(&mut self, arch: Arch, law: &CutPotential<S>, close: Close) -> u32 {
         let groups = self.force.len();
         self.held
             .resize(if MEASURED { groups } else { 0 }, [[0.0; MOST]; PARTS]);
@@ -206,32 +208,49 @@ impl Pairs {
         let mut held: Vec<&mut [[Side; PARTS]]> = held.chunks_mut(CHUNK).collect();
         held.resize_with(groups.div_ceil(CHUNK), Default::default);
         let chunks = force.par_chunks_mut(CHUNK).zip(held).enumerate();
-        chunks.for_each(|(chunk, (force, held))| {
+        let crowded = chunks.flat_map_iter(|(chunk, (force, held))| {
             arch.dispatch(Sum::<S, MEASURED> {
                 law: *law,
+                close: close.squared_length,
                 first: chunk * CHUNK,
                 starts,
                 partners,
                 places,
                 force,
                 held,
-            });
+            })
         });
+        let crowded: Vec<usize> = crowded.collect();
+        let excess = crowded.into_iter().map(|group| self.excess(law, close, group));
+        close::level(excess.fold(0.0, f64::max))
+    }
+
+    /// How much close bonds stiffen a point of a group: the most of them.
+    fn excess<S: PairShape>(&self, law: &CutPotential<S>, close: Close, group: usize) -> f64 {
+        let mut excess = [0.0; MOST];
+        self.for_each_of(group, |[point, _], bond| {
+            let squared = bond.iter().map(|component| component * component).sum();
+            excess[point as usize % MOST] += close.excess(law, squared, false);
+        });
+        excess.into_iter().fold(0.0, f64::max)
     }
 
     /// Gives the vector from each point of this rank to each partner.
     pub fn for_each(&self, mut give: impl FnMut([u32; 2], [f64; 3])) {
-        for (group, bounds) in self.starts.windows(2).enumerate() {
-            let list = &self.partners[bounds[0] as usize..bounds[1] as usize];
-            for (place, &partner) in list.iter().enumerate() {
-                let point = group * MOST + place % MOST;
-                if (partner as usize) < self.points.len() {
-                    let [here, there] = [self.places[point], self.places[partner as usize]];
-                    give(
-                        [point as u32, partner],
-                        [there[0] - here[0], there[1] - here[1], there[2] - here[2]],
-                    );
-                }
+        (0..self.starts.len().saturating_sub(1)).for_each(|group| self.for_each_of(group, &mut give));
+    }
+
+    /// The same of the points of a group.
+    fn for_each_of(&self, group: usize, mut give: impl FnMut([u32; 2], [f64; 3])) {
+        let list = &self.partners[self.starts[group] as usize..self.starts[group + 1] as usize];
+        for (place, &partner) in list.iter().enumerate() {
+            let point = group * MOST + place % MOST;
+            if (partner as usize) < self.points.len() {
+                let [here, there] = [self.places[point], self.places[partner as usize]];
+                give(
+                    [point as u32, partner],
+                    [there[0] - here[0], there[1] - here[1], there[2] - here[2]],
+                );
             }
         }
     }
@@ -258,6 +277,8 @@ fn followed(mine: &[Range<usize>; 2], partners: &[u32], points: usize) -> Vec<Ra
 /// The sums of some groups of points.
 struct Sum<'a, S, const MEASURED: bool> {
     law: CutPotential<S>,
+    /// Shorter bonds are close, nm^2.
+    close: f64,
     /// Number of the first group.
     first: usize,
     starts: &'a [u32],
@@ -268,12 +289,14 @@ struct Sum<'a, S, const MEASURED: bool> {
 }
 
 impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
-    type Output = ();
+    /// Groups with close bonds.
+    type Output = Vec<usize>;
 
     #[inline(always)]
-    fn with_simd<L: Simd>(self, simd: L) {
+    fn with_simd<L: Simd>(self, simd: L) -> Vec<usize> {
         let Self {
             law,
+            close,
             first,
             starts,
             partners,
@@ -282,9 +305,11 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
             held,
         } = self;
         let lanes = Lanes::<L>::COUNT;
+        let mut crowded = Vec::new();
         for (number, force) in force.iter_mut().enumerate() {
             let group = first + number;
             let list = &partners[starts[group] as usize..starts[group + 1] as usize];
+            let mut is_crowded = Mask::all(simd, false);
             let mut lane = 0;
             while lane < MOST {
                 let here = gather(simd, places, |k| group * MOST + lane + k);
@@ -293,6 +318,7 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                 for partners in list.chunks_exact(MOST) {
                     let bond = gather(simd, places, |k| partners[lane + k] as usize) - here;
                     let squared = bond.squared();
+                    is_crowded = is_crowded.or(squared.is_below(close));
                     if MEASURED {
                         let values = law.values(simd, squared);
                         of_pairs.add(values, bond, within(simd, &law, squared), Lanes::all(simd, 1.0));
@@ -310,7 +336,11 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                 }
                 lane += lanes;
             }
+            if is_crowded.any() {
+                crowded.push(group);
+            }
         }
+        crowded
     }
 }
 

@@ -42,11 +42,15 @@ impl Forces {
         self.exchange(position);
         let mut irregular = self.sum_tiles::<S, MEASURED>(law, position, force, measure);
         loop {
+            self.domain.hears_level();
             let is_current = self.pairs.as_mut().is_some_and(|pairs| pairs.follow(position));
             if !irregular.is_empty() {
                 self.domain.call(Call::InterfaceChanged);
             } else if !is_current {
                 self.domain.call(Call::ListOutdated);
+            } else if let Some(pairs) = &mut self.pairs {
+                let level = pairs.sum::<S, MEASURED>(self.arch, law, self.close);
+                self.domain.call_level(level);
             }
             self.agree();
             if self.domain.hears(Call::InterfaceChanged) {
@@ -61,10 +65,7 @@ impl Forces {
                 break;
             }
         }
-        let arch = self.arch;
-        if let Some(pairs) = &mut self.pairs {
-            pairs.sum::<S, MEASURED>(arch, law);
-        }
+        self.close_level = self.domain.hears_level();
         self.add_pairs::<MEASURED>(force, measure);
         Ok(())
     }
