@@ -53,6 +53,7 @@ fn solver(element: u16) -> Solver {
         summation: Summation::Exact,
         consistent_mass: 0.0,
         relax: false,
+        noise: None,
         until: Until::default(),
         probe_every: f64::INFINITY,
         snapshot_every: None,

@@ -99,6 +99,8 @@ pub struct Forces {
     close: Close,
     /// How much close bonds stiffen the sites of all ranks at the positions of the last forces.
     close_level: u32,
+    /// The shortest close bond of this rank so far, nm; infinite before there is one.
+    shortest: f64,
     /// Interfaces that are not tight, ascending.
     loosened: Vec<u32>,
     /// Interfaces of my triangles that are tested in every step.
@@ -186,6 +188,7 @@ impl Forces {
             tiles,
             close: Close::new(&material),
             close_level: 0,
+            shortest: f64::INFINITY,
             limit,
             loosened: Vec::new(),
             watched: Vec::new(),
@@ -314,6 +317,18 @@ impl Forces {
     /// computed, 1/ps^2, the same on all ranks; with lumped masses.
     pub fn squared_frequency_of_close_bonds(&self) -> f64 {
         self.close.squared_frequency(self.close_level, self.material.site_mass)
+    }
+
+    /// The length of the shortest close bond that any rank has seen so far, nm; infinite before there is one. All ranks must ask
+    /// together.
+    pub fn closest_approach(&self) -> f64 {
+        // The least of all ranks to the bit.
+        -self.domain.ranks().largest(-self.shortest)
+    }
+
+    /// Goes on from what was seen before, nm.
+    pub fn restore_closest_approach(&mut self, length: f64) {
+        self.shortest = length;
     }
 
     /// Whether an interface is one of my triangles'.

@@ -1,6 +1,7 @@
 //! The state of a specimen in motion.
 
 mod leap;
+mod noise;
 mod strip;
 
 use std::array;
@@ -10,6 +11,7 @@ use crate::lanes;
 use crate::mesh::Mesh;
 
 pub use leap::Leap;
+pub use noise::Noise;
 pub use strip::Strip;
 
 /// Positions, velocities, forces and masses of the nodes in `D` dimensions, a plane an axis. Units nm, ps, eV.

@@ -30,6 +30,11 @@ pub enum ExportError {
          export a case without `run.relax`"
     )]
     Relaxed,
+    #[error(
+        "its atoms are displaced at the start, and the input starts from the perfect lattice; \
+         export a case without `run.noise`"
+    )]
+    Displaced,
     #[error("LAMMPS has no pair style that equals {what}; it has those that equal {available}")]
     NoPairStyle {
         what: &'static str,
@@ -54,6 +59,9 @@ impl<'a> Model<'a> {
         }
         if case.run.relax.is_some() {
             return Err(ExportError::Relaxed);
+        }
+        if case.run.noise.is_some() {
+            return Err(ExportError::Displaced);
         }
         Ok(Self {
             mesh,

@@ -9,6 +9,38 @@ use super::regular::Regular;
 use crate::material::Material;
 use crate::potential::{CutPotential, PairShape, with_law};
 
+/// What close bonds do to some sites.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crowd {
+    /// What they add to the stiffness of a site, in stiffnesses of a bond of the crystal: the most.
+    pub excess: f64,
+    /// The square of the shortest, nm^2; infinite where there is none.
+    pub shortest: f64,
+}
+
+impl Crowd {
+    pub const NONE: Self = Self {
+        excess: 0.0,
+        shortest: f64::INFINITY,
+    };
+
+    /// Of the sites of both.
+    pub fn and(self, other: Self) -> Self {
+        Self {
+            excess: self.excess.max(other.excess),
+            shortest: self.shortest.min(other.shortest),
+        }
+    }
+
+    /// Takes note of a bond of the site that counts so many times.
+    pub fn add<S: PairShape>(&mut self, close: Close, law: &CutPotential<S>, squared: f64, severed: bool, count: f64) {
+        if squared < close.squared_length {
+            self.excess += count * close.excess(law, squared, severed);
+            self.shortest = self.shortest.min(squared);
+        }
+    }
+}
+
 /// What the close neighbours of a site are compared with.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Close {
@@ -40,10 +72,7 @@ impl Close {
 
     /// What a bond of this squared length adds to the stiffness of the sites at its ends, in stiffnesses of a bond of the
     /// crystal; `severed` by a cut.
-    pub fn excess<S: PairShape>(&self, law: &CutPotential<S>, squared: f64, severed: bool) -> f64 {
-        if squared >= self.squared_length {
-            return 0.0;
-        }
+    fn excess<S: PairShape>(&self, law: &CutPotential<S>, squared: f64, severed: bool) -> f64 {
         let along = match severed {
             true => law.repulsion_curvature(squared.sqrt(), self.spacing),
             false => law.curvature(squared.sqrt()),

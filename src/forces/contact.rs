@@ -23,7 +23,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::affine::site_position;
-use super::close::{self, Close};
+use super::close::{Close, Crowd};
 use super::measure::{Measure, PARTS, in_lengths, in_parts};
 use super::regular::Regular;
 use super::{CHUNK, Planes};
@@ -83,8 +83,7 @@ pub struct Found {
     pub disturbed: Vec<u32>,
     /// Nodes of atoms that have not moved ahead.
     pub left: Vec<Range<usize>>,
-    /// How much close bonds stiffen the sites: see [`Close`].
-    pub level: u32,
+    pub crowd: Crowd,
 }
 
 impl Contacts {
@@ -169,27 +168,33 @@ impl Contacts {
         let ahead = ahead.map_or_else(Vec::new, |ahead| ahead.tasks(sites.clone(), nodes, Self::TASK));
         let of_atoms = self.sum_sites::<S, MEASURED>(field, sites, of_atoms, places, ahead);
         let close = of_triangles.iter().chain(&of_atoms).flat_map(|found| &found.close);
-        let excess = close.map(|&site| self.excess(field, site as usize)).fold(0.0, f64::max);
+        let crowds = close.map(|&site| self.crowd(field, site as usize, places));
+        let crowd = crowds.fold(Crowd::NONE, Crowd::and);
         let (mut disturbed, mut left) = (Vec::new(), Vec::new());
         for found in of_atoms {
             disturbed.extend(found.irregular.into_iter().map(|site| site - carried as u32));
             let nodes = |sites: Range<usize>| first + sites.start - carried..first + sites.end - carried;
             left.extend(found.left.into_iter().map(nodes));
         }
-        Found {
-            disturbed,
-            left,
-            level: close::level(excess),
-        }
+        Found { disturbed, left, crowd }
     }
 
-    /// How much its close bonds stiffen a site.
-    fn excess<S: PairShape>(&self, field: &SumField<S>, site: usize) -> f64 {
-        let mut excess = 0.0;
-        self.for_each_partner(site, |[x, y], severed, count| {
-            excess += count * field.close.excess(field.law, x * x + y * y, severed);
+    /// What its close bonds do to a site.
+    fn crowd<S: PairShape>(&self, field: &SumField<S>, site: usize, atoms: [&[f64]; 2]) -> Crowd {
+        // Those of atoms that are not looked at one by one are not kept.
+        let place = |site: usize| match site.checked_sub(self.carrier.len()) {
+            Some(atom) => atoms.map(|plane| plane[atom]),
+            None => self.position.each_ref().map(|plane| plane[site]),
+        };
+        let [here_x, here_y] = place(site);
+        let mut crowd = Crowd::NONE;
+        self.partners.for_each_of(site, |partner| {
+            let [x, y] = place(partner.site());
+            let squared = (x - here_x) * (x - here_x) + (y - here_y) * (y - here_y);
+            let count = self.count(site, partner.site());
+            crowd.add(field.close, field.law, squared, partner.severed(), count);
         });
-        excess
+        crowd
     }
 
     /// Sums of consecutive sites, and what each task has found.

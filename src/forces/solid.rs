@@ -88,6 +88,8 @@ pub struct Forces {
     close: Close,
     /// How much close bonds stiffen the points of all ranks at the positions of the last forces.
     close_level: u32,
+    /// The shortest close bond of this rank so far, nm; infinite before there is one.
+    shortest: f64,
     arch: Arch,
     searches: u64,
     search_time: Duration,
@@ -131,6 +133,7 @@ impl Forces {
             farthest: FARTHEST * largest,
             close: Close::new(&material),
             close_level: 0,
+            shortest: f64::INFINITY,
             mesh,
             domain,
             bordering,
@@ -184,6 +187,18 @@ impl Forces {
     /// computed, 1/ps^2, the same on all ranks.
     pub fn squared_frequency_of_close_bonds(&self) -> f64 {
         self.close.squared_frequency(self.close_level, self.material.site_mass)
+    }
+
+    /// The length of the shortest close bond that any rank has seen so far, nm; infinite before there is one. All ranks must ask
+    /// together.
+    pub fn closest_approach(&self) -> f64 {
+        // The least of all ranks to the bit.
+        -self.domain.ranks().largest(-self.shortest)
+    }
+
+    /// Goes on from what was seen before, nm.
+    pub fn restore_closest_approach(&mut self, length: f64) {
+        self.shortest = length;
     }
 
     /// The parts on both sides of an interface.

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use super::ahead::Motion;
+use super::close::{self, Crowd};
 use super::interface::{Pair, State};
 use super::measure::in_lengths;
 use super::tile;
@@ -65,6 +66,7 @@ impl Forces {
         loop {
             let changed = self.changed_interfaces(&irregular, position);
             let mut disturbed = Vec::new();
+            let mut crowd = Crowd::NONE;
             self.domain.hears_level();
             if !changed.is_empty() {
                 self.domain.call(Call::InterfaceChanged);
@@ -88,7 +90,8 @@ impl Forces {
                     .contacts
                     .sum::<S, MEASURED>(&field, position, force, measure, atoms);
                 (disturbed, self.left_atoms) = (found.disturbed, found.left);
-                self.domain.call_level(found.level);
+                crowd = found.crowd;
+                self.domain.call_level(close::level(crowd.excess));
                 self.spent[1] += start.elapsed().as_secs_f64();
                 if !disturbed.is_empty() {
                     self.domain.call(Call::ListOutdated);
@@ -104,6 +107,7 @@ impl Forces {
                 disturbed.into_iter().for_each(|atom| self.atoms.disturb(atom as usize));
                 self.search(position)?;
             } else {
+                self.shortest = self.shortest.min(crowd.shortest.sqrt());
                 break;
             }
         }

@@ -39,7 +39,7 @@ pub fn read<K: Keep, const D: usize>(path: &Path, case_id: &str) -> Result<Check
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 7,
+        format: 8,
         case_id,
     }
 }
@@ -75,6 +75,7 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         step,
         time,
         time_step,
+        step_after_next,
         stability_limit,
         position,
         velocity,
@@ -82,6 +83,7 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         start: [start_potential, start_pairs, start_kinetic],
         peak_work,
         peak_imbalance,
+        closest_approach,
         probes,
         snapshots,
         kept,
@@ -103,12 +105,14 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
     for (name, unit, number) in [
         ("time", "ps", time),
         ("time_step", "ps", time_step),
+        ("step_after_next", "ps", step_after_next),
         ("stability_limit", "ps", stability_limit),
         ("start_potential", "eV", start_potential),
         ("start_pairs", "1", start_pairs),
         ("start_kinetic", "eV", start_kinetic),
         ("peak_work", "eV", peak_work),
         ("peak_imbalance", "eV", peak_imbalance),
+        ("closest_approach", "nm", closest_approach),
     ] {
         put_scalar(group, name, unit, *number)?;
     }
@@ -120,6 +124,7 @@ fn get_checkpoint<K: Keep, const D: usize>(group: &Group) -> hdf5::Result<Checkp
         step: get_scalar(group, "step")?,
         time: get_scalar(group, "time")?,
         time_step: get_scalar(group, "time_step")?,
+        step_after_next: get_scalar(group, "step_after_next")?,
         stability_limit: get_scalar(group, "stability_limit")?,
         position: get_planes(group, "position")?,
         velocity: get_planes(group, "velocity")?,
@@ -131,6 +136,7 @@ fn get_checkpoint<K: Keep, const D: usize>(group: &Group) -> hdf5::Result<Checkp
         ],
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,
+        closest_approach: get_scalar(group, "closest_approach")?,
         probes: get_scalar(group, "probes")?,
         snapshots: get_scalar(group, "snapshots")?,
         kept: K::get(group)?,

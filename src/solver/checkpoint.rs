@@ -15,6 +15,8 @@ pub struct Checkpoint<K = Kept, const D: usize = 2> {
     pub time: f64,
     /// Time step in force, ps.
     pub time_step: f64,
+    /// The time step after the next one, ps.
+    pub step_after_next: f64,
     /// Bound of the time step when it was last looked at, ps.
     pub stability_limit: f64,
     /// Node positions, an axis after the other, nm; each of length `nodes`.
@@ -28,6 +30,8 @@ pub struct Checkpoint<K = Kept, const D: usize = 2> {
     /// Largest |work| and largest energy imbalance seen, eV.
     pub peak_work: f64,
     pub peak_imbalance: f64,
+    /// See [`super::Body::closest_approach`].
+    pub closest_approach: f64,
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,
@@ -41,6 +45,7 @@ impl<K: Default, const D: usize> Default for Checkpoint<K, D> {
             step: 0,
             time: 0.0,
             time_step: 0.0,
+            step_after_next: 0.0,
             stability_limit: 0.0,
             position: array::from_fn(|_| Vec::new()),
             velocity: array::from_fn(|_| Vec::new()),
@@ -48,6 +53,7 @@ impl<K: Default, const D: usize> Default for Checkpoint<K, D> {
             start: [0.0; 3],
             peak_work: 0.0,
             peak_imbalance: 0.0,
+            closest_approach: f64::INFINITY,
             probes: 0,
             snapshots: 0,
             kept: K::default(),

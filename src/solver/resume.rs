@@ -25,6 +25,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             step: self.clock.step,
             time: self.clock.time,
             time_step: self.clock.time_step,
+            step_after_next: self.step_after_next,
             stability_limit: self.stability_limit,
             position: array::from_fn(|_| Vec::new()),
             velocity: array::from_fn(|_| Vec::new()),
@@ -32,6 +33,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             start: self.ledger.start(),
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
+            closest_approach: self.body.closest_approach(),
             probes: self.probes.taken(),
             snapshots: self.snapshots.taken(),
             kept: self.body.keep(),
@@ -53,14 +55,15 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             time: checkpoint.time,
             time_step: checkpoint.time_step,
         };
+        self.step_after_next = checkpoint.step_after_next;
         self.stability_limit = checkpoint.stability_limit;
         self.state.position.clone_from(position);
         self.state.velocity.clone_from(velocity);
         self.body.restore(&checkpoint.open_interfaces, &checkpoint.kept);
         self.compute(false).map_err(|source| self.blow_up(source))?;
-        self.follow_again();
         self.ledger
             .restore(checkpoint.start, checkpoint.peak_work, checkpoint.peak_imbalance);
+        self.body.restore_closest_approach(checkpoint.closest_approach);
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
         Ok(())

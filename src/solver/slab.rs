@@ -259,6 +259,14 @@ impl Body<2> for Slab {
         self.forces.squared_frequency_of_close_bonds() / (1.0 - 3.0 * shares.fold(0.0, f64::max))
     }
 
+    fn closest_approach(&self) -> f64 {
+        self.forces.closest_approach()
+    }
+
+    fn restore_closest_approach(&mut self, length: f64) {
+        self.forces.restore_closest_approach(length);
+    }
+
     fn is_unbalanced(&mut self) -> bool {
         self.forces.is_unbalanced()
     }
@@ -295,6 +303,14 @@ impl Body<2> for Slab {
 
     fn time_of(&self, strain: f64) -> f64 {
         self.loading.time_of(strain)
+    }
+
+    fn site_of(&self, node: usize) -> [i32; 2] {
+        let mesh = self.forces.mesh();
+        let element = mesh.element_of_node(node);
+        let corners = mesh.nodes_of(element).zip(mesh.elements[element].corners());
+        let own = corners.into_iter().find(|(corner, _)| *corner == node);
+        mesh.elements[element].site(own.map_or([0, 0], |(_, local)| local))
     }
 
     /// From the left edge, and from the crack plane.

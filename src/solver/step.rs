@@ -7,7 +7,7 @@ use super::clock::Clock;
 use super::cost::Phase;
 use super::error::SolverError;
 use super::schedule::Schedule;
-use super::{Solver, TimeStep, time_step};
+use super::{Solver, time_step};
 use crate::forces::ForceError;
 use crate::integrator;
 use crate::loading::Load;
@@ -101,7 +101,11 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             ..
         } = self.clock;
         let added = self.body.stiffened(&self.state);
-        if self.settings.time_step.is_to_be_checked(step, present, self.stability_limit) {
+        if self
+            .settings
+            .time_step
+            .is_to_be_checked(step, present, self.stability_limit)
+        {
             let found = self.body.stability_limit(&self.state);
             self.stability_limit = time_step::without_close_bonds(found, added, self.stability_limit);
             self.cost.book(Phase::Stability, clock);
@@ -113,18 +117,19 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
 
     /// The time step after the next one, where close bonds add this to the squared highest frequency.
     fn follow(&self, added: f64) -> Option<f64> {
+        let Clock { step, time_step, .. } = self.clock;
         let chosen = self.settings.time_step;
-        let limit = match chosen {
-            TimeStep::Auto { .. } => time_step::with_close_bonds(self.stability_limit, added),
-            TimeStep::Given(_) => self.stability_limit,
-        };
-        chosen.follow(self.longest_step, limit)
+        let farthest = chosen.follows_speed(step).then(|| self.farthest());
+        chosen.follow(time_step, self.longest_step, [self.stability_limit, added], farthest)
     }
 
-    /// Finds the time step after the next one again, in a state whose forces have just been computed.
-    pub(super) fn follow_again(&mut self) {
-        let added = self.body.stiffened(&self.state);
-        self.step_after_next = self.follow(added).unwrap_or(self.clock.time_step);
+    /// How far the fastest node of all ranks goes in a step, over the spacing of the lattice.
+    fn farthest(&self) -> f64 {
+        let domain = self.body.domain();
+        let nodes = domain.nodes().into_iter();
+        let largest = nodes.map(|nodes| integrator::largest_squared_speed(&self.state, nodes));
+        let largest = domain.ranks().largest(largest.fold(0.0, f64::max));
+        largest.sqrt() * self.clock.time_step / self.body.spacing()
     }
 
     /// Forces at the present positions, and what elements hold if it is asked for.
@@ -151,6 +156,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         let chosen = self.settings.time_step;
         !(self.body.domain().is_called()
             || chosen.is_to_be_checked(step, time_step, self.stability_limit)
+            || chosen.follows_speed(step)
             || self.step_after_next != time_step
             || step.is_multiple_of(COMPARE_EVERY))
     }

@@ -4,6 +4,7 @@
 
 mod crack;
 mod material;
+mod noise;
 mod resolution;
 mod run;
 mod slab;

@@ -78,6 +78,7 @@ fn settings(time: f64) -> Settings {
         summation: Summation::Exact,
         consistent_mass: 0.0,
         relax: false,
+        noise: None,
         until: Until {
             time: Some(time),
             ..Until::default()

@@ -5,6 +5,7 @@ mod damped;
 mod energy;
 mod exploding;
 mod factors;
+mod long_steps;
 mod parted;
 mod relaxed;
 
@@ -59,6 +60,7 @@ fn settings(strain: f64) -> Settings {
         summation: Summation::Exact,
         consistent_mass: 0.0,
         relax: false,
+        noise: None,
         until: Until {
             strain: Some(strain),
             ..Until::default()

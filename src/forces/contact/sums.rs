@@ -103,11 +103,8 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
     #[inline(always)]
     fn with_simd<L: Simd>(mut self, simd: L) -> Found {
         let lanes = Lanes::<L>::COUNT;
-        let Found {
-            mut irregular,
-            mut left,
-            mut close,
-        } = Found::default();
+        let mut found = Found::default();
+        let mut left = Vec::new();
         let start = self.sites.start;
         let contacts = self.contacts;
         let law = self.law;
@@ -127,13 +124,13 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                         _ => stay.extend((0..whole - sites.start).step_by(lanes)),
                     }
                     for from in stay.into_iter().map(|at| sites.start + at) {
-                        if !self.sum_atoms(simd, &law, from, lanes, steps, &mut irregular) {
+                        if !self.sum_atoms(simd, &law, from, lanes, steps, &mut found) {
                             left.push(from..from + lanes);
                         }
                     }
                     if whole < sites.end {
                         let count = sites.end - whole;
-                        if !self.sum_atoms(simd, &law, whole, count, steps, &mut irregular) {
+                        if !self.sum_atoms(simd, &law, whole, count, steps, &mut found) {
                             left.push(whole..sites.end);
                         }
                     }
@@ -149,8 +146,8 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                         );
                         let sum = self.sum_listed(simd, from, &starts[..=count], &partners);
                         self.store(&sum, from - start, count);
-                        note(&mut irregular, from, count, sum.regular);
-                        note(&mut close, from, count, sum.close.opposite());
+                        note(&mut found.irregular, from, count, sum.regular);
+                        note(&mut found.close, from, count, sum.close.opposite());
                     }
                     left.push(sites);
                 }
@@ -164,18 +161,15 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                         let starts = &starts[from - sites.start..=from - sites.start + count];
                         let sum = self.sum_listed(simd, from, starts, partners);
                         self.store(&sum, from - start, count);
-                        note(&mut irregular, from, count, sum.regular);
-                        note(&mut close, from, count, sum.close.opposite());
+                        note(&mut found.irregular, from, count, sum.regular);
+                        note(&mut found.close, from, count, sum.close.opposite());
                     }
                     left.push(sites);
                 }
             }
         }
-        Found {
-            irregular,
-            left: joined(left),
-            close,
-        }
+        found.left = joined(left);
+        found
     }
 }
 
@@ -291,7 +285,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
         from: usize,
         count: usize,
         steps: &[Step],
-        irregular: &mut Vec<u32>,
+        found: &mut Found,
     ) -> bool {
         let here = self.places(simd, from, count);
         let mut sum = SiteSum::new(simd);
@@ -300,13 +294,15 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
             let there = self.places(simd, from.wrapping_add_signed(step.by as isize), count);
             let bond = there - here;
             let squared = bond.squared();
+            sum.close = sum.close.or(squared.is_below(self.close));
             if let (true, Some(test)) = (step.is_nearest, &self.regular) {
                 sum.regular = sum.regular.and(test.holds(squared, squared));
             }
             let pull = sum.count.slopes(simd, law, squared, one);
             sum.add(pull, [bond.x, bond.y]);
         }
-        let is_regular = note(irregular, from, count, sum.regular);
+        let is_regular = note(&mut found.irregular, from, count, sum.regular);
+        note(&mut found.close, from, count, sum.close.opposite());
         let place = from - self.sites.start;
         if let (Some(ahead), true) = (&mut self.ahead, is_regular) {
             let force = Vector {

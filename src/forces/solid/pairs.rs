@@ -15,7 +15,7 @@ use super::inside::within;
 use super::measure::{Held, PARTS};
 use super::points::Points;
 use super::vector::Vector;
-use crate::forces::close::{self, Close};
+use crate::forces::close::{Close, Crowd};
 use crate::lanes::{Lanes, MOST, Mask};
 use crate::potential::{CutPotential, PairShape};
 
@@ -191,9 +191,14 @@ impl Pairs {
         self.drift = drift;
     }
 
-    /// Sums the forces on the points; in steps that are `MEASURED` also what their elements hold of the pairs. Returns how much
-    /// close bonds stiffen the points: see [`Close`].
-    pub fn sum<S: PairShape, const MEASURED: bool>(&mut self, arch: Arch, law: &CutPotential<S>, close: Close) -> u32 {
+    /// Sums the forces on the points; in steps that are `MEASURED` also what their elements hold of the pairs. Returns what
+    /// close bonds do to the points.
+    pub fn sum<S: PairShape, const MEASURED: bool>(
+        &mut self,
+        arch: Arch,
+        law: &CutPotential<S>,
+        close: Close,
+    ) -> Crowd {
         let groups = self.force.len();
         self.held
             .resize(if MEASURED { groups } else { 0 }, [[0.0; MOST]; PARTS]);
@@ -221,18 +226,18 @@ impl Pairs {
             })
         });
         let crowded: Vec<usize> = crowded.collect();
-        let excess = crowded.into_iter().map(|group| self.excess(law, close, group));
-        close::level(excess.fold(0.0, f64::max))
+        let crowds = crowded.into_iter().map(|group| self.crowd(law, close, group));
+        crowds.fold(Crowd::NONE, Crowd::and)
     }
 
-    /// How much close bonds stiffen a point of a group: the most of them.
-    fn excess<S: PairShape>(&self, law: &CutPotential<S>, close: Close, group: usize) -> f64 {
-        let mut excess = [0.0; MOST];
+    /// What close bonds do to the points of a group.
+    fn crowd<S: PairShape>(&self, law: &CutPotential<S>, close: Close, group: usize) -> Crowd {
+        let mut crowds = [Crowd::NONE; MOST];
         self.for_each_of(group, |[point, _], bond| {
             let squared = bond.iter().map(|component| component * component).sum();
-            excess[point as usize % MOST] += close.excess(law, squared, false);
+            crowds[point as usize % MOST].add(close, law, squared, false, 1.0);
         });
-        excess.into_iter().fold(0.0, f64::max)
+        crowds.into_iter().fold(Crowd::NONE, Crowd::and)
     }
 
     /// Gives the vector from each point of this rank to each partner.

@@ -11,6 +11,7 @@ use super::points::Points;
 use super::sweep::{Field, Sweep};
 use super::{ForceError, Forces, Measure, Planes};
 use crate::domain::{Call, Halo};
+use crate::forces::close::{self, Crowd};
 use crate::lanes::MOST;
 use crate::potential::{CutPotential, PairShape, with_law};
 
@@ -43,14 +44,15 @@ impl Forces {
         let mut irregular = self.sum_tiles::<S, MEASURED>(law, position, force, measure);
         loop {
             self.domain.hears_level();
+            let mut crowd = Crowd::NONE;
             let is_current = self.pairs.as_mut().is_some_and(|pairs| pairs.follow(position));
             if !irregular.is_empty() {
                 self.domain.call(Call::InterfaceChanged);
             } else if !is_current {
                 self.domain.call(Call::ListOutdated);
             } else if let Some(pairs) = &mut self.pairs {
-                let level = pairs.sum::<S, MEASURED>(self.arch, law, self.close);
-                self.domain.call_level(level);
+                crowd = pairs.sum::<S, MEASURED>(self.arch, law, self.close);
+                self.domain.call_level(close::level(crowd.excess));
             }
             self.agree();
             if self.domain.hears(Call::InterfaceChanged) {
@@ -62,6 +64,7 @@ impl Forces {
                     self.search(position)?;
                 }
             } else {
+                self.shortest = self.shortest.min(crowd.shortest.sqrt());
                 break;
             }
         }

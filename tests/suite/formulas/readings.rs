@@ -83,6 +83,7 @@ fn stretched() -> Solver {
         summation: Summation::Exact,
         consistent_mass: 0.0,
         relax: false,
+        noise: None,
         until: Until {
             time: Some(0.01),
             ..Until::default()
