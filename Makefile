@@ -11,7 +11,7 @@ CHAPTER_6 = film-3d mixed-mode impact crack-surface
 # Where `make install` puts the programs: PREFIX/bin, or where cargo installs, if PREFIX is empty.
 PREFIX ?=
 
-.PHONY: help quickstart build test verify wrong-formulas bench speed-against-error chapter-5 $(CHAPTER_5) chapter-6 $(CHAPTER_6) scaling check lint schema setup test-setup install
+.PHONY: help quickstart build test verify stability wrong-formulas bench speed-against-error chapter-5 $(CHAPTER_5) chapter-6 $(CHAPTER_6) scaling check lint schema setup test-setup install
 .NOTPARALLEL:
 
 help:
@@ -19,6 +19,7 @@ help:
 	@echo 'make test         build, then run all fast tests'
 	@echo 'make verify       the long verification: closed forms, the same specimens in LAMMPS, and a real Slurm, which it installs; writes docs/verification.md'
 	@echo 'make wrong-formulas   makes formulas wrong, one at a time, and looks whether a test fails; a part of verify; ONLY="NAME" for one'
+	@echo 'make stability    all hard cases of studies/hard-cases, each with what is expected of it; writes docs/stability.md'
 	@echo 'make bench        what a step, a run and a command cost on this machine, beside LAMMPS; writes docs/performance.md'
 	@echo 'make speed-against-error   what each economy costs and saves, beside LAMMPS; writes reports/speed-against-error'
 	@echo 'make models-A-E   models A to E of Deng (2011) at full size; writes reports/models-A-E'
@@ -50,6 +51,9 @@ verify: build test-setup
 	@.ci/packages slurm-wlm || echo 'going on without Slurm: its test is skipped'
 	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test verify
 	@CARGO=$(CARGO) .ci/solver $(TARGET)
+
+stability: build
+	CGAFT_WRITE_DOCS=1 $(CARGO) test --release --locked --test stability
 
 # In a copy of the sources; a part of `make verify`.
 wrong-formulas: test-setup

@@ -54,6 +54,7 @@ fn solver(element: u16) -> Solver {
         consistent_mass: 0.0,
         refine: None,
         relax: false,
+        noise: None,
         until: Until::default(),
         probe_every: f64::INFINITY,
         snapshot_every: None,

@@ -11,6 +11,7 @@ pub mod initiation;
 pub mod path;
 pub mod regression;
 pub mod scaling;
+pub mod scatter;
 pub mod series;
 pub mod speed;
 pub mod stress_intensity;

@@ -64,6 +64,9 @@ pub enum Call {
     Checkpoint = 8,
 }
 
+/// The bit of the lowest level; those of the calls are before it.
+const FIRST_LEVEL: u32 = 4;
+
 /// What falls to the busiest of so many ranks in a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Burden {
@@ -219,6 +222,20 @@ impl Domain {
         heard
     }
 
+    /// Tells all ranks a level, at most 59, when they next agree.
+    pub fn call_level(&mut self, level: u32) {
+        if level > 0 {
+            self.called |= 1 << (FIRST_LEVEL + level - 1);
+        }
+    }
+
+    /// The highest level that any rank has called since this was last asked; 0 for none.
+    pub fn hears_level(&mut self) -> u32 {
+        let levels = self.heard >> FIRST_LEVEL;
+        self.heard &= (1 << FIRST_LEVEL) - 1;
+        u64::BITS - levels.leading_zeros()
+    }
+
     /// Brings the numbers of all nodes to the first rank, each from the rank that computes it.
     pub fn gather_nodes(&self, plane: &mut [f64]) {
         let of_groups = &mut plane[..self.grouped_nodes()];
@@ -360,5 +377,10 @@ mod tests {
         domain.agree();
         assert!(!domain.hears(Call::Checkpoint));
         assert!(domain.hears(Call::Stop) && !domain.hears(Call::Stop));
+        [0, 3, 59, 58].into_iter().for_each(|level| domain.call_level(level));
+        domain.call(Call::Checkpoint);
+        domain.agree();
+        assert_eq!([domain.hears_level(), domain.hears_level()], [59, 0]);
+        assert!(domain.hears(Call::Checkpoint));
     }
 }

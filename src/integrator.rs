@@ -224,15 +224,11 @@ fn dispatch_to<const N: usize>(corners: [Nodes; N], leap: Leap, drifts: bool, an
     });
 }
 
-/// The square of what the forces accelerate a node of a range by, coupled masses as if they were not, nm^2/ps^4: the largest.
-pub fn largest_squared_acceleration<const D: usize>(state: &State<D>, nodes: Range<usize>) -> f64 {
-    let squared = |node: usize, axis: usize| {
-        let acceleration = state.force[axis][node] * state.mobility[axis][node];
-        acceleration * acceleration
-    };
+/// The square of the speed of a node of a range, nm^2/ps^2: the largest.
+pub fn largest_squared_speed<const D: usize>(state: &State<D>, nodes: Range<usize>) -> f64 {
+    let squared = |node: usize| -> f64 { state.velocity.iter().map(|plane| plane[node] * plane[node]).sum() };
     let largest = |from: usize| {
-        let nodes = from..nodes.end.min(from + CHUNK);
-        let squares = nodes.map(|node| (0..D).map(|axis| squared(node, axis)).sum());
+        let squares = (from..nodes.end.min(from + CHUNK)).map(squared);
         squares.fold(
             0.0,
             |largest: f64, square| if square > largest { square } else { largest },
@@ -264,14 +260,14 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_acceleration_is_that_of_the_node_with_most_force_to_its_mass() {
+    fn the_largest_speed_is_that_of_the_fastest_node() {
         let nodes = 3 * CHUNK + 7;
         let mut state = State::at_rest([vec![0.0; nodes], vec![0.0; nodes]], vec![2.0; nodes]);
-        state.force[0].fill(1.0);
-        [state.force[0][CHUNK + 3], state.force[1][CHUNK + 3]] = [-6.0, 8.0];
-        assert_eq!(largest_squared_acceleration(&state, 0..nodes), 25.0);
-        assert_eq!(largest_squared_acceleration(&state, CHUNK + 4..nodes), 0.25);
-        assert_eq!(largest_squared_acceleration(&state, 0..0), 0.0);
+        state.velocity[0].fill(0.5);
+        [state.velocity[0][CHUNK + 3], state.velocity[1][CHUNK + 3]] = [-3.0, 4.0];
+        assert_eq!(largest_squared_speed(&state, 0..nodes), 25.0);
+        assert_eq!(largest_squared_speed(&state, CHUNK + 4..nodes), 0.25);
+        assert_eq!(largest_squared_speed(&state, 0..0), 0.0);
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod label;
 mod name;
 mod named_cases;
 mod range;
+mod repeats;
 mod scaling;
 mod side_by_side;
 mod spelling;
@@ -79,6 +80,8 @@ pub struct PlannedCase {
     pub origin: String,
     /// What the sweep has set in it, in the order of the sweep.
     pub swept: Vec<Swept>,
+    /// The name of the case that it repeats with noise of its own.
+    pub repeat_of: Option<String>,
 }
 
 /// Expand a study into its cases. All mistakes of the file, those of reading it too, come back at once.
@@ -119,6 +122,7 @@ pub fn plan(study: &Study) -> Result<Plan, StudyError> {
                 id,
                 origin: draft.origin,
                 swept: draft.swept,
+                repeat_of: draft.repeat_of,
             });
         }
     }

@@ -13,7 +13,9 @@ mod overview;
 mod page;
 mod palette;
 mod picture;
+mod quantity;
 mod refined;
+mod repeats;
 mod resolution;
 mod scaling;
 mod side_by_side;
@@ -231,13 +233,15 @@ fn candidate<'a>(case: &'a CaseResult, findings: &'a Findings, conditions: &'a s
 
 /// How a specimen is held and set in motion, which its sizes and constants do not tell.
 fn conditions(case: &CaseResult) -> String {
-    const KEYS: [&str; 6] = [
+    const KEYS: [&str; 8] = [
         "specimen.grips",
         "loading.strain-rate.mode",
         "loading.strain-rate.ramp",
         "loading.strain-rate.sponge",
         "loading.strain-rate.damping",
         "run.relax.strain",
+        "run.noise.amplitude",
+        "run.noise.seed",
     ];
     let chosen = case.choices.iter().filter(|(key, _)| KEYS.contains(&key.as_str()));
     chosen.map(|(key, value)| format!("{key}: {value}\n")).collect()
@@ -266,6 +270,10 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
         "comparison.parquet",
         "side_by_side.csv",
         "side_by_side.parquet",
+        "repeats.csv",
+        "repeats.parquet",
+        "together.csv",
+        "together.parquet",
     ];
     for table in optional.map(|file| folder.join("tables").join(file)) {
         match fs::remove_file(&table) {

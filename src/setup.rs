@@ -24,6 +24,7 @@ use std::time::Duration;
 use crate::forces::Summation;
 use crate::potential::{AtCutoff, CutPotential, HarmonicBond, Interaction, LennardJones, Morse};
 use crate::solver::{self, TimeStep};
+use crate::state::Noise;
 use crate::study::case::{self, Case};
 use crate::units::U_IN_EV_PS2_PER_NM2;
 
@@ -85,6 +86,10 @@ fn settings(case: &Case, time_of: impl Fn(f64) -> f64) -> solver::Settings {
         },
         refine: None,
         relax: case.run.relax.is_some(),
+        noise: case.run.noise.map(|noise| Noise {
+            amplitude: noise.amplitude,
+            seed: u64::from(noise.seed),
+        }),
         until: solver::Until {
             strain: case.run.until.strain,
             time: case.run.until.time,

@@ -37,7 +37,7 @@ use crate::domain::{Call, Ranks};
 use crate::forces::Summation;
 use crate::loading::Load;
 use crate::relaxation::RelaxationError;
-use crate::state::State;
+use crate::state::{Noise, State};
 use schedule::Schedule;
 use step::Looks;
 
@@ -56,6 +56,8 @@ pub struct Settings {
     pub refine: Option<Refine>,
     /// Whether the specimen comes to rest under the strain of the start before it moves.
     pub relax: bool,
+    /// Displacements of the start.
+    pub noise: Option<Noise>,
     pub until: Until,
     /// Simulated time between probes, ps.
     pub probe_every: f64,
@@ -82,8 +84,12 @@ pub struct Solver<B: Instruments<D> = Slab, const D: usize = 2> {
     state: State<D>,
     settings: Settings,
     clock: Clock,
-    /// Bound of the time step when it was last looked at, ps.
+    /// Bound of the time step when it was last looked at, ps, without close bonds.
     stability_limit: f64,
+    /// An automatic time step is never longer, ps.
+    longest_step: f64,
+    /// The time step after the next one, ps.
+    step_after_next: f64,
     /// Half a kick that the velocities still lack, ps.
     due_kick: Option<f64>,
     /// Whether the motion of the next step has been done with the forces of this one.
@@ -101,13 +107,19 @@ pub struct Solver<B: Instruments<D> = Slab, const D: usize = 2> {
 impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     /// A body at the start of its loading, whose set-up began at `start`.
     pub fn of(mut body: B, mut state: State<D>, settings: Settings, mut start: Instant) -> Result<Self, SolverError> {
+        if let Some(noise) = settings.noise.filter(|_| !settings.relax) {
+            noise.displace(&mut state, body.spacing(), |node| body.site_of(node));
+        }
         body.compute(&mut state, 0.0, true).map_err(SolverError::NoStart)?;
         let stability_limit = body.stability_limit(&state);
         let longest = body.load().longest_step(body.spacing());
         let time_step = settings.time_step.choose(stability_limit, longest)?;
         let held = body.load().held().into_iter();
         let held = held.map(|node| state.kinetic_energy_of(node as usize)).sum();
-        let ledger = Ledger::new(body.stored(), [state.kinetic_energy(), held], body.jump_at_cutoff());
+        let mut ledger = Ledger::new(body.stored(), [state.kinetic_energy(), held], body.jump_at_cutoff());
+        if let Some(noise) = settings.noise {
+            ledger.put_in_by_noise(noise.most_energy(&state, body.spacing(), stability_limit));
+        }
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
         let looks = Schedule::new(body.looks_every().unwrap_or(f64::INFINITY));
@@ -123,6 +135,8 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
                 time_step,
             },
             stability_limit,
+            longest_step: time_step,
+            step_after_next: time_step,
             due_kick: None,
             is_ahead: false,
             measured: true,
@@ -162,6 +176,13 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     /// Time step in force and its stability limit, ps.
     pub fn time_step(&self) -> [f64; 2] {
         [self.clock.time_step, self.stability_limit]
+    }
+
+    /// The closest that sites have come, as a share of the spacing; `None` where all bonds were as in a regular lattice, as far as
+    /// neighbours are searched. All ranks must ask for it together.
+    pub fn closest_approach(&self) -> Option<f64> {
+        let share = self.body.closest_approach() / self.body.spacing();
+        share.is_finite().then_some(share)
     }
 
     /// Runs until something ends it; `stop` asks for a checkpoint and an early end.
@@ -232,11 +253,16 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             rest => rest?,
         }
         self.body.start(&mut self.state);
+        if let Some(noise) = self.settings.noise {
+            noise.displace(&mut self.state, self.body.spacing(), |node| self.body.site_of(node));
+        }
         self.compute(true).map_err(SolverError::NoStart)?;
         self.ledger.begin(self.body.stored(), self.state.kinetic_energy());
         self.stability_limit = self.body.stability_limit(&self.state);
         let longest = self.body.load().longest_step(self.body.spacing());
-        self.clock.time_step = self.settings.time_step.choose(self.stability_limit, longest)?;
+        let chosen = self.settings.time_step.choose(self.stability_limit, longest)?;
+        self.clock.time_step = chosen.min(self.longest_step);
+        self.step_after_next = self.clock.time_step;
         self.cost.book(Phase::SetUp, &mut clock);
         Ok(true)
     }

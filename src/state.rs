@@ -2,6 +2,7 @@
 
 mod carried;
 mod leap;
+mod noise;
 mod strip;
 
 use std::array;
@@ -12,6 +13,7 @@ use crate::mesh::Mesh;
 use crate::mesh::grouped::{Grouped, MassCoupling};
 
 pub use leap::Leap;
+pub use noise::Noise;
 pub use strip::Strip;
 
 /// Positions, velocities, forces and masses of the nodes in `D` dimensions, a plane an axis. Units nm, ps, eV.
@@ -89,6 +91,12 @@ impl<const D: usize> State<D> {
                 self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
             }
         }
+    }
+
+    /// The least part of its lumped mass that a node moves with; 1 where all masses are lumped.
+    pub fn least_share_of_mass(&self) -> f64 {
+        let shares = self.coupled.iter().map(|coupled| coupled.coupling.least());
+        shares.fold(1.0, f64::min)
     }
 
     /// The mass that couples a node to another of its element, over the lumped mass of one; zero where it is lumped.

@@ -21,9 +21,10 @@ mod schema;
 mod source;
 mod tree;
 
+pub(crate) use defaults::SEED;
 pub use error::{Mistake, StudyError};
 pub use file::Growth;
-pub(crate) use file::{CaseFile, SideBySideFile, StudyFile};
+pub(crate) use file::{CaseFile, Noise, Repeats, Run, SideBySideFile, StudyFile};
 pub(crate) use finding::{Finding, Findings, Place, alternatives, nearest, suggestion};
 pub(crate) use named::{Name, Sweep};
 pub(crate) use overlay::Overlay;

@@ -7,6 +7,7 @@ mod suite {
     mod executor;
     mod forces;
     mod formulas;
+    mod hard_cases;
     mod j_integral;
     mod notches;
     mod published;

@@ -255,6 +255,7 @@ fn compute(
         time_step_ps: finished.time_step,
         stability_limit_ps: finished.stability_limit,
         energy_error_relative: finished.energy_error,
+        closest_approach_spacings: finished.closest_approach,
         peak_memory_bytes: setup::memory::peak(),
         core_seconds: Some(finished.cost.core_seconds),
         cost: finished.cost.phases,

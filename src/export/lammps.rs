@@ -35,6 +35,11 @@ pub enum ExportError {
          export a case without `run.relax`"
     )]
     Relaxed,
+    #[error(
+        "its atoms are displaced at the start, and the input starts from the perfect lattice; \
+         export a case without `run.noise`"
+    )]
+    Displaced,
     #[error("LAMMPS has no pair style that equals {what}; it has those that equal {available}")]
     NoPairStyle {
         what: &'static str,
@@ -67,8 +72,11 @@ fn refuse_what_is_not_there(case: &Case) -> Result<(), ExportError> {
     if element != 1 {
         return Err(ExportError::NotAtoms { element });
     }
-    match case.run.relax {
-        Some(_) => Err(ExportError::Relaxed),
+    if case.run.relax.is_some() {
+        return Err(ExportError::Relaxed);
+    }
+    match case.run.noise {
+        Some(_) => Err(ExportError::Displaced),
         None => Ok(()),
     }
 }

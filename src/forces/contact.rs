@@ -23,6 +23,7 @@ use pulp::Arch;
 use rayon::prelude::*;
 
 use super::affine::site_position;
+use super::close::{Close, Crowd};
 use super::measure::{Measure, PARTS, in_lengths, in_parts};
 use super::regular::Regular;
 use super::{CHUNK, Planes};
@@ -71,8 +72,18 @@ pub struct SumField<'a, S> {
     pub regular: Option<Regular>,
     /// The same, where the cutoff leaves such bonds untouched.
     pub untouched: Option<Regular>,
+    pub close: Close,
     pub mesh: &'a Mesh,
     pub domain: &'a Domain,
+}
+
+/// What the sums have found.
+pub struct Found {
+    /// Atoms that turn out to be disturbed.
+    pub disturbed: Vec<u32>,
+    /// Nodes of atoms that have not moved ahead.
+    pub left: Vec<Range<usize>>,
+    pub crowd: Crowd,
 }
 
 impl Contacts {
@@ -124,8 +135,7 @@ impl Contacts {
     }
 
     /// Computes where the sites are and what force each feels, eV/nm. Puts the forces of atoms where they belong, and what
-    /// atoms hold if it is to be `MEASURED`; returns atoms that turn out to be disturbed. Those that move `ahead` need not
-    /// have their forces put down; the nodes of the others are told, too.
+    /// atoms hold if it is to be `MEASURED`. Atoms that move `ahead` need not have their forces put down.
     pub fn sum<S: PairShape, const MEASURED: bool>(
         &mut self,
         field: &SumField<S>,
@@ -133,7 +143,7 @@ impl Contacts {
         force: &mut Planes,
         measure: &mut Measure,
         ahead: Option<AtomsAhead>,
-    ) -> (Vec<u32>, Vec<Range<usize>>) {
+    ) -> Found {
         self.spacing = field.mesh.spacing;
         self.place_sites(field.mesh, position, ahead.is_none());
         let carried = self.carrier.len();
@@ -144,7 +154,7 @@ impl Contacts {
         let mine = self.sites_of_triangles(field.domain.grouped());
         let own = of_carried.each_mut().map(|plane| part_of(plane, &mine));
         let places = position.each_ref().map(|plane| &plane[3 * field.mesh.triangles..]);
-        self.sum_sites::<S, MEASURED>(field, mine, own, places, Vec::new());
+        let of_triangles = self.sum_sites::<S, MEASURED>(field, mine, own, places, Vec::new());
         self.of_carried = of_carried;
         let triangles = field.mesh.triangles;
         let atoms = field.domain.atoms();
@@ -156,19 +166,38 @@ impl Contacts {
         let sites = carried + atoms.start..carried + atoms.end;
         let first = nodes.start - (sites.start - carried);
         let ahead = ahead.map_or_else(Vec::new, |ahead| ahead.tasks(sites.clone(), nodes, Self::TASK));
-        let (mut irregular, mut left) = (Vec::new(), Vec::new());
-        for (disturbed, stays) in self.sum_sites::<S, MEASURED>(field, sites, of_atoms, places, ahead) {
-            irregular.extend(disturbed.into_iter().map(|site| site - carried as u32));
-            left.extend(
-                stays
-                    .into_iter()
-                    .map(|sites: Range<usize>| first + sites.start - carried..first + sites.end - carried),
-            );
+        let of_atoms = self.sum_sites::<S, MEASURED>(field, sites, of_atoms, places, ahead);
+        let close = of_triangles.iter().chain(&of_atoms).flat_map(|found| &found.close);
+        let crowds = close.map(|&site| self.crowd(field, site as usize, places));
+        let crowd = crowds.fold(Crowd::NONE, Crowd::and);
+        let (mut disturbed, mut left) = (Vec::new(), Vec::new());
+        for found in of_atoms {
+            disturbed.extend(found.irregular.into_iter().map(|site| site - carried as u32));
+            let nodes = |sites: Range<usize>| first + sites.start - carried..first + sites.end - carried;
+            left.extend(found.left.into_iter().map(nodes));
         }
-        (irregular, left)
+        Found { disturbed, left, crowd }
     }
 
-    /// Sums of consecutive sites; for each task the sites with irregular bonds, and those that do not move `ahead`.
+    /// What its close bonds do to a site.
+    fn crowd<S: PairShape>(&self, field: &SumField<S>, site: usize, atoms: [&[f64]; 2]) -> Crowd {
+        // Those of atoms that are not looked at one by one are not kept.
+        let place = |site: usize| match site.checked_sub(self.carrier.len()) {
+            Some(atom) => atoms.map(|plane| plane[atom]),
+            None => self.position.each_ref().map(|plane| plane[site]),
+        };
+        let [here_x, here_y] = place(site);
+        let mut crowd = Crowd::NONE;
+        self.partners.for_each_of(site, |partner| {
+            let [x, y] = place(partner.site());
+            let squared = (x - here_x) * (x - here_x) + (y - here_y) * (y - here_y);
+            let count = self.count(site, partner.site());
+            crowd.add(field.close, field.law, squared, partner.severed(), count);
+        });
+        crowd
+    }
+
+    /// Sums of consecutive sites, and what each task has found.
     fn sum_sites<S: PairShape, const MEASURED: bool>(
         &self,
         field: &SumField<S>,
@@ -176,7 +205,7 @@ impl Contacts {
         sums: [&mut [f64]; SUMS],
         atoms: [&[f64]; 2],
         mut ahead: Vec<Option<ahead::Task>>,
-    ) -> Vec<(Vec<u32>, Vec<Range<usize>>)> {
+    ) -> Vec<sums::Found> {
         let parts = in_parts(sums, Self::TASK, sites.len().div_ceil(Self::TASK));
         let starts = sites.clone().step_by(Self::TASK);
         ahead.resize_with(starts.len(), || None);

@@ -23,7 +23,7 @@ pub struct Regular {
 
 impl Regular {
     /// In spacings.
-    const LEAST: f64 = 0.94;
+    pub const LEAST: f64 = 0.94;
     const MOST: f64 = 1.1;
 
     /// `unlisted` in spacings, lengths in nm. `None` where the cutoff leaves no room for it.

@@ -5,6 +5,7 @@ use std::time::{Duration, Instant};
 use rayon::prelude::*;
 
 use super::ahead::Motion;
+use super::close::{self, Crowd};
 use super::interface::{Pair, State};
 use super::measure::in_lengths;
 use super::tile;
@@ -65,6 +66,8 @@ impl Forces {
         loop {
             let changed = self.changed_interfaces(&irregular, position);
             let mut disturbed = Vec::new();
+            let mut crowd = Crowd::NONE;
+            self.domain.hears_level();
             if !changed.is_empty() {
                 self.domain.call(Call::InterfaceChanged);
             } else if !self.contacts.are_current(position) {
@@ -75,6 +78,7 @@ impl Forces {
                     law,
                     regular: self.limit.regular,
                     untouched: self.limit.untouched,
+                    close: self.close,
                     mesh: &self.mesh,
                     domain: &self.domain,
                 };
@@ -82,9 +86,12 @@ impl Forces {
                 let atoms = motion
                     .as_deref_mut()
                     .map(|motion| motion.of_atoms(&self.looked_at_atoms));
-                (disturbed, self.left_atoms) = self
+                let found = self
                     .contacts
                     .sum::<S, MEASURED>(&field, position, force, measure, atoms);
+                (disturbed, self.left_atoms) = (found.disturbed, found.left);
+                crowd = found.crowd;
+                self.domain.call_level(close::level(crowd.excess));
                 self.spent[1] += start.elapsed().as_secs_f64();
                 if !disturbed.is_empty() {
                     self.domain.call(Call::ListOutdated);
@@ -100,9 +107,11 @@ impl Forces {
                 disturbed.into_iter().for_each(|atom| self.atoms.disturb(atom as usize));
                 self.search(position)?;
             } else {
+                self.shortest = self.shortest.min(crowd.shortest.sqrt());
                 break;
             }
         }
+        self.close_level = self.domain.hears_level();
         self.contacts.add_to(&self.mesh, &self.domain, force, measure);
         irregular.extend(changed_beside);
         Ok(irregular)

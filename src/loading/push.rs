@@ -97,6 +97,18 @@ impl<const D: usize> Load<D> for Push<D> {
         self.work.total(ranks)
     }
 
+    fn unresolved(&self, state: &State<D>, time_step: f64, ranks: Ranks) -> f64 {
+        let [sum] = self.work.sum(ranks, |place| {
+            let (node, share) = self.shares[place];
+            let of_axis = |axis: usize| {
+                let force = self.factor * self.force[axis] * share;
+                force * force * state.mobility[axis][node as usize]
+            };
+            [(0..D).map(of_axis).sum::<f64>()]
+        });
+        0.125 * time_step * time_step * sum
+    }
+
     fn longest_step(&self, _: f64) -> f64 {
         f64::INFINITY
     }

@@ -30,6 +30,12 @@ impl MassCoupling {
         [together, together - 2.0 * self.opposite]
     }
 
+    /// The least that the matrix multiplies any motion by.
+    pub fn least(self) -> f64 {
+        let [together, against] = self.stretches();
+        together.min(against)
+    }
+
     /// How forces become accelerations, by the inverse of the matrix.
     pub fn answer(self) -> Answer {
         let [together, against] = self.stretches();

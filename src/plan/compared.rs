@@ -35,6 +35,7 @@ pub const COMPARED: [Compared; 6] = [
             "wall_s",
             "atom_steps_per_s",
             "energy_error_relative",
+            "closest_approach_spacings",
             "cutoff_release_ev",
             "initiation_strain",
             "initiation_time_ps",

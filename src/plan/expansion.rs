@@ -1,10 +1,11 @@
 //! Base, cases and sweep multiplied out.
 
 use super::swept::Swept;
-use super::{name, sweep};
+use super::{name, repeats, sweep};
 use crate::study::{CaseFile, Finding, Findings, Given, Overlay, Place, StudyFile};
 
 /// A case before its choices are checked.
+#[derive(Clone)]
 pub struct Draft {
     pub name: String,
     /// The name that the sweep started from.
@@ -13,6 +14,8 @@ pub struct Draft {
     pub place: Place,
     pub values: Given<CaseFile>,
     pub swept: Vec<Swept>,
+    /// The name of what it repeats.
+    pub repeat_of: Option<String>,
 }
 
 /// Name of the only case of a study that names none.
@@ -30,10 +33,13 @@ pub fn expand(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
     let number = axes
         .iter()
         .fold(starts.len(), |number, axis| number.saturating_mul(axis.points.len()));
+    let repeats = content.repeats.right().and_then(|repeats| repeats.count.right());
+    let number = number.saturating_mul(repeats.map_or(1, |&count| count as usize));
     if number > MOST_CASES {
-        let message = format!("this sweep makes {number} cases; at most {MOST_CASES} fit into a study");
+        let message = format!("this study has {number} cases; at most {MOST_CASES} fit into a study");
         findings.add(
-            Finding::at(content.sweep.place().unwrap_or_default(), message).help("shorten a list or widen a step"),
+            Finding::at(content.sweep.place().unwrap_or_default(), message)
+                .help("shorten a list, widen a step, or repeat less often"),
         );
         return starts;
     }
@@ -46,7 +52,7 @@ pub fn expand(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
             .flat_map(|draft| axis.points.iter().map(move |point| varied(draft, point, named)))
             .collect();
     }
-    drafts
+    repeats::repeated(drafts, &content.repeats, findings)
 }
 
 fn varied(draft: &Draft, point: &sweep::Point, named: bool) -> Draft {
@@ -65,6 +71,7 @@ fn varied(draft: &Draft, point: &sweep::Point, named: bool) -> Draft {
         place: point.place,
         values,
         swept: draft.swept.iter().chain(&point.swept).cloned().collect(),
+        repeat_of: None,
     }
 }
 
@@ -77,6 +84,7 @@ fn starts(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
             place: Place::default(),
             values: content.base.clone(),
             swept: Vec::new(),
+            repeat_of: None,
         }],
         Given::Wrong(_) => Vec::new(),
         Given::Right(cases, place) => {
@@ -93,6 +101,7 @@ fn starts(content: &StudyFile, findings: &Findings) -> Vec<Draft> {
                     place: case.place,
                     values,
                     swept: Vec::new(),
+                    repeat_of: None,
                 }
             };
             cases.0.iter().map(draft).collect()

@@ -3,14 +3,15 @@
 use super::expansion::Draft;
 use crate::study::{Finding, Findings, Given, Place, suggestion};
 
-/// The cases that are named: of a sweep all, by its name. Refuses what no case is called.
+/// The cases that are named: of a sweep and of repeats all, by their name. Refuses what no case is called.
 pub fn named_cases(given: &Given<Vec<Given<String>>>, drafts: &[Draft], findings: &Findings) -> Vec<String> {
     let mut cases = Vec::new();
     for given in given.right().into_iter().flatten() {
         let Given::Right(wanted, place) = given else { continue };
-        let found = drafts
-            .iter()
-            .filter(|draft| draft.name == *wanted || draft.origin == *wanted);
+        let found = drafts.iter().filter(|draft| {
+            let names = [Some(&draft.name), Some(&draft.origin), draft.repeat_of.as_ref()];
+            names.contains(&Some(wanted))
+        });
         let before = cases.len();
         cases.extend(found.map(|draft| draft.name.clone()));
         if cases.len() == before {

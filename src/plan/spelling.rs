@@ -5,7 +5,7 @@ mod solid;
 
 use crate::{
     study::case::{
-        AtCutoff, Body, Case, Execution, MassMatrix, Material, Potential, PotentialShape, Ramp, Run, Slab,
+        AtCutoff, Body, Case, Execution, MassMatrix, Material, Noise, Potential, PotentialShape, Ramp, Run, Slab,
         SnapshotInterval, Solid, Summation, TimeStep, Until,
     },
     units::{self, Dimension},
@@ -154,6 +154,7 @@ fn running(run: &Run) -> Value {
         summation,
         mass,
         relax,
+        noise,
     } = run;
     let time_step = match *time_step {
         TimeStep::Auto { fraction } => json!({ "fraction": fraction }),
@@ -172,6 +173,9 @@ fn running(run: &Run) -> Value {
     let mut spelled = json!({ "until": stop(until), "time-step": time_step, "summation": summation, "mass": mass });
     if let Some(strain) = relax {
         spelled["relax"] = json!({ "strain": quantity(*strain, Dimension::Fraction) });
+    }
+    if let Some(Noise { amplitude, seed }) = noise {
+        spelled["noise"] = json!({ "amplitude": amplitude, "seed": seed });
     }
     spelled
 }

@@ -75,6 +75,8 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         step,
         time,
         time_step,
+        step_after_next,
+        longest_step,
         stability_limit,
         position,
         velocity,
@@ -83,6 +85,7 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         refined_energy,
         peak_work,
         peak_imbalance,
+        closest_approach,
         probes,
         snapshots,
         looks,
@@ -110,6 +113,8 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
     for (name, unit, number) in [
         ("time", "ps", time),
         ("time_step", "ps", time_step),
+        ("step_after_next", "ps", step_after_next),
+        ("longest_step", "ps", longest_step),
         ("stability_limit", "ps", stability_limit),
         ("start_potential", "eV", start_potential),
         ("start_pairs", "1", start_pairs),
@@ -117,6 +122,7 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         ("refined_energy", "eV", refined_energy),
         ("peak_work", "eV", peak_work),
         ("peak_imbalance", "eV", peak_imbalance),
+        ("closest_approach", "nm", closest_approach),
     ] {
         put_scalar(group, name, unit, *number)?;
     }
@@ -128,6 +134,8 @@ fn get_checkpoint<K: Keep, const D: usize>(group: &Group) -> hdf5::Result<Checkp
         step: get_scalar(group, "step")?,
         time: get_scalar(group, "time")?,
         time_step: get_scalar(group, "time_step")?,
+        step_after_next: get_scalar(group, "step_after_next")?,
+        longest_step: get_scalar(group, "longest_step")?,
         stability_limit: get_scalar(group, "stability_limit")?,
         position: get_planes(group, "position")?,
         velocity: get_planes(group, "velocity")?,
@@ -140,6 +148,7 @@ fn get_checkpoint<K: Keep, const D: usize>(group: &Group) -> hdf5::Result<Checkp
         refined_energy: get_scalar(group, "refined_energy")?,
         peak_work: get_scalar(group, "peak_work")?,
         peak_imbalance: get_scalar(group, "peak_imbalance")?,
+        closest_approach: get_scalar(group, "closest_approach")?,
         probes: get_scalar(group, "probes")?,
         snapshots: get_scalar(group, "snapshots")?,
         looks: get_scalar(group, "looks")?,

@@ -1,16 +1,17 @@
 //! Cases side by side: those of one name in several studies, and those of this study that it sets side by side.
 
 mod agreement;
-mod quantity;
 
 use polars::prelude::Column;
 
 use super::numbers::ABSENT;
 use super::overview::{self, Row};
+use super::quantity::Quantity;
+use super::repeats::{self, Repeats};
 use super::table::Rows;
 use super::{Analysed, CaseResult, Study};
+use crate::analysis::scatter::Scatter;
 use crate::plan::SideBySide;
-use quantity::Quantity;
 
 /// Cases side by side; the others are measured against the first.
 pub struct Panel<'a> {
@@ -21,16 +22,39 @@ pub struct Panel<'a> {
     set: Option<&'a SideBySide>,
 }
 
-/// One of them.
+/// One of them, and where it is repeated with noise all repeats, of which it is the first.
 struct Side<'a> {
     study: &'a str,
     case: &'a Analysed<'a>,
+    repeats: Option<Repeats<'a>>,
+}
+
+impl Side<'_> {
+    fn name(&self) -> &str {
+        self.repeats.as_ref().map_or(self.case.name(), |repeats| repeats.name)
+    }
+
+    /// Of repeats the median.
+    fn value(&self, quantity: Quantity) -> Option<f64> {
+        match &self.repeats {
+            None => quantity.value(self.case),
+            Some(_) => Some(self.scatter(quantity)?.median),
+        }
+    }
+
+    fn scatter(&self, quantity: Quantity) -> Option<Scatter> {
+        self.repeats.as_ref()?.scatter(quantity)
+    }
 }
 
 /// The cases of this study that stand in others too, and the sets of cases that it names; `others` are the cases of
 /// `study.others`.
 pub fn panels<'a>(study: &'a Study, cases: &'a [Analysed<'a>], others: &'a [Vec<Analysed<'a>>]) -> Vec<Panel<'a>> {
-    let side = |study, case| Side { study, case };
+    let side = |study, case| Side {
+        study,
+        case,
+        repeats: None,
+    };
     let named = |cases: &'a [Analysed<'a>], name: &str| cases.iter().find(|case| case.name() == name);
     // A case without a result of its own is measured against nothing.
     let computed = cases.iter().filter(|case| case.result.setting.is_some());
@@ -44,13 +68,23 @@ pub fn panels<'a>(study: &'a Study, cases: &'a [Analysed<'a>], others: &'a [Vec<
         }
     });
     let within = study.side_by_side.iter().map(|set| {
-        let found = set
-            .cases
-            .iter()
-            .filter_map(|name| Some(side(&study.name, named(cases, name)?)));
+        let mut sides: Vec<Side> = Vec::new();
+        for case in set.cases.iter().filter_map(|name| named(cases, name)) {
+            let name = case.result.repeat_of.as_deref();
+            let repeats = repeats::all(cases)
+                .into_iter()
+                .find(|repeats| Some(repeats.name) == name);
+            // Of a case and its repeats one side.
+            if name.is_none() || !sides.iter().any(|side| Some(side.name()) == name) {
+                sides.push(Side {
+                    repeats,
+                    ..side(&study.name, case)
+                });
+            }
+        }
         Panel {
             title: &set.name,
-            sides: found.collect(),
+            sides,
             set: Some(set),
         }
     });
@@ -67,7 +101,7 @@ impl Panel<'_> {
         let sides = self.sides.iter();
         match self.set {
             None => sides.map(|side| side.study).collect(),
-            Some(_) => sides.map(|side| side.case.name()).collect(),
+            Some(_) => sides.map(Side::name).collect(),
         }
     }
 
@@ -76,8 +110,8 @@ impl Panel<'_> {
         let results: Vec<&CaseResult> = self.sides.iter().map(|side| side.case.result).collect();
         let mut rows = overview::differing(&results);
         let cells = |quantity: Quantity| {
-            let first = quantity.value(self.first());
-            let cell = |(index, side): (usize, &Side)| match quantity.value(side.case) {
+            let first = self.first().value(quantity);
+            let cell = |(index, side): (usize, &Side)| match side.value(quantity) {
                 None => ABSENT.to_owned(),
                 Some(value) => quantity.shown(value, first.filter(|_| index > 0)),
             };
@@ -91,8 +125,8 @@ impl Panel<'_> {
         rows
     }
 
-    fn first(&self) -> &Analysed<'_> {
-        self.sides[0].case
+    fn first(&self) -> &Side<'_> {
+        &self.sides[0]
     }
 }
 
@@ -103,14 +137,14 @@ pub fn columns(panels: &[Panel]) -> Vec<Column> {
         others.flat_map(move |side| Quantity::all().into_iter().map(move |quantity| (panel, side, quantity)))
     });
     let rows = Rows(rows.collect());
-    let value = |row: &(&Panel, &Side, Quantity)| row.2.value(row.1.case);
-    let first = |row: &(&Panel, &Side, Quantity)| row.2.value(row.0.first());
+    let value = |row: &(&Panel, &Side, Quantity)| row.1.value(row.2);
+    let first = |row: &(&Panel, &Side, Quantity)| row.0.first().value(row.2);
     vec![
         rows.text("set", |row| row.0.title),
         rows.text("first_study", |row| row.0.sides[0].study),
         rows.text("first_case", |row| row.0.first().name()),
         rows.text("study", |row| row.1.study),
-        rows.text("case", |row| row.1.case.name()),
+        rows.text("case", |row| row.1.name()),
         rows.text("quantity", |row| row.2.column()),
         rows.number("first", first),
         rows.number("value", value),
@@ -118,6 +152,7 @@ pub fn columns(panels: &[Panel]) -> Vec<Column> {
         rows.number("relative_difference", |row| {
             row.2.relative_difference(value(row)?, first(row)?)
         }),
+        rows.number("scatter", |row| row.0.scatter(row.1, row.2)),
         rows.number("asked", |row| row.0.asked(row.2)),
     ]
 }

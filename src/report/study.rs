@@ -65,6 +65,8 @@ pub struct CaseResult {
     /// The name that a sweep started from, and what it has set.
     pub origin: String,
     pub swept: Vec<Swept>,
+    /// The name of the case that it repeats with noise of its own.
+    pub repeat_of: Option<String>,
     /// `None` where that cannot be told on this machine.
     pub specimen: Option<Specimen>,
     /// `None` where the case did not come as far as its set-up.
@@ -136,6 +138,8 @@ pub struct Manifest {
     pub steps: Option<u64>,
     /// Largest energy imbalance over the largest work.
     pub energy_error: Option<f64>,
+    /// The closest that sites have come, as a share of the spacing.
+    pub closest_approach: Option<f64>,
     /// Largest memory of the solver, bytes.
     pub peak_memory: Option<f64>,
     pub cost: Vec<Phase>,

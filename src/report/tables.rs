@@ -9,6 +9,7 @@ pub mod first_branch;
 mod joins;
 pub mod k_ic;
 mod path;
+mod repeats;
 pub mod specimen;
 pub mod speed_against_error;
 mod stress;
@@ -47,6 +48,10 @@ pub fn all(
     ];
     let make = |(name, columns)| Table::new(name, sweep::with_keys(columns, cases));
     let mut tables = own.into_iter().map(make).collect::<Result<Vec<_>, _>>()?;
+    if cases.iter().any(|case| case.result.repeat_of.is_some()) {
+        tables.push(Table::new("repeats", repeats::columns(cases))?);
+        tables.push(Table::new("together", repeats::together(cases))?);
+    }
     let precision = speed_against_error::rows(cases);
     if !precision.is_empty() {
         tables.push(make((CHEAPEST, cheapest::columns(&precision)))?);

@@ -8,7 +8,7 @@ use super::overview::{ROUNDING, between_probes};
 use super::sweep::{self, Series};
 use super::tables::specimen::are_one_computation;
 use super::units::{MEGAPASCAL_ROOT_METRE, PERCENT};
-use super::{Analysed, beware};
+use super::{Analysed, beware, repeats};
 use crate::plan::Swept;
 use crate::units::amounts::{bytes, duration};
 
@@ -40,7 +40,9 @@ fn effort(cases: &[Analysed]) -> Option<String> {
 
 /// Some sentences that answer: what came out, and how sure is it? Then: did it work, and for what effort?
 pub fn verdict(cases: &[Analysed]) -> Vec<String> {
+    let of_repeats = repeats::sentences(cases);
     let mut sentences = match sweep::series(cases) {
+        _ if !of_repeats.is_empty() => of_repeats,
         Some((key, series)) => over_the_sweep(cases, key, &series),
         None => case_by_case(cases),
     };

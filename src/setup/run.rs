@@ -25,6 +25,8 @@ pub struct Finished {
     pub stability_limit: f64,
     /// Largest energy imbalance over the largest work; `None` before any work was done.
     pub energy_error: Option<f64>,
+    /// The closest that sites have come, as a share of the spacing.
+    pub closest_approach: Option<f64>,
     /// Of all attempts together; the mesh and the publishing of the last.
     pub cost: Spent,
     /// `None` where there was one rank, and nothing to be sent.
@@ -125,6 +127,7 @@ fn compute<B: Recorded<D>, const D: usize>(
         time_step,
         stability_limit,
         energy_error: solver.ledger().relative_error(),
+        closest_approach: solver.closest_approach(),
         cost: recorder.total_cost(&cost),
         messages,
     };

@@ -47,6 +47,17 @@ pub trait Body<const D: usize> {
     /// Largest stable time step of a state whose forces have just been computed, ps, the same on all ranks.
     fn stability_limit(&self, state: &State<D>) -> f64;
 
+    /// What close bonds may add to the squared highest frequency of a state whose forces have just been computed, 1/ps^2, the
+    /// same on all ranks.
+    fn stiffened(&self, state: &State<D>) -> f64;
+
+    /// The length of the shortest bond between sites whose neighbours are searched that has been closer than in a regular
+    /// lattice, nm; infinite before there is one. All ranks must ask for it together.
+    fn closest_approach(&self) -> f64;
+
+    /// Goes on from what was seen before.
+    fn restore_closest_approach(&mut self, length: f64);
+
     /// Whether ranks have had unequal work since they were last asked. All must be asked together.
     fn is_unbalanced(&mut self) -> bool {
         false
@@ -77,6 +88,9 @@ pub trait Body<const D: usize> {
 
     /// When a nominal strain is reached, ps.
     fn time_of(&self, strain: f64) -> f64;
+
+    /// The site of the lattice at which a node stands.
+    fn site_of(&self, node: usize) -> [i32; D];
 
     /// Where a node was before the loading, nm, in the frame of the specimen.
     fn reference_place(&self, node: usize) -> Vec<f64>;

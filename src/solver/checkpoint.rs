@@ -15,6 +15,10 @@ pub struct Checkpoint<K = Kept, const D: usize = 2> {
     pub time: f64,
     /// Time step in force, ps.
     pub time_step: f64,
+    /// The time step after the next one, ps.
+    pub step_after_next: f64,
+    /// An automatic time step is never longer, ps.
+    pub longest_step: f64,
     /// Bound of the time step when it was last looked at, ps.
     pub stability_limit: f64,
     /// Node positions, an axis after the other, nm; each of length `nodes`.
@@ -30,6 +34,8 @@ pub struct Checkpoint<K = Kept, const D: usize = 2> {
     /// Largest |work| and largest energy imbalance seen, eV.
     pub peak_work: f64,
     pub peak_imbalance: f64,
+    /// See [`super::Body::closest_approach`].
+    pub closest_approach: f64,
     /// Number of probes and snapshots written so far.
     pub probes: u64,
     pub snapshots: u64,
@@ -45,6 +51,8 @@ impl<K: Default, const D: usize> Default for Checkpoint<K, D> {
             step: 0,
             time: 0.0,
             time_step: 0.0,
+            step_after_next: 0.0,
+            longest_step: 0.0,
             stability_limit: 0.0,
             position: array::from_fn(|_| Vec::new()),
             velocity: array::from_fn(|_| Vec::new()),
@@ -53,6 +61,7 @@ impl<K: Default, const D: usize> Default for Checkpoint<K, D> {
             refined_energy: 0.0,
             peak_work: 0.0,
             peak_imbalance: 0.0,
+            closest_approach: f64::INFINITY,
             probes: 0,
             snapshots: 0,
             looks: 0,

@@ -14,6 +14,8 @@ pub struct Ledger {
     initial_kinetic: f64,
     /// The part of the kinetic energy that belongs to the grips: nobody puts it into the specimen.
     held_kinetic: f64,
+    /// At most what random displacements of the start have put in, eV.
+    noise: f64,
     /// What the energy of a pair jumps by when it comes within the cutoff, eV.
     jump: f64,
     /// What the mesh has gained of energy where it was refined, eV.
@@ -48,6 +50,7 @@ impl Ledger {
             initial_pairs: pairs,
             initial_kinetic: kinetic,
             held_kinetic: held,
+            noise: 0.0,
             jump,
             refined: 0.0,
             peak_work: 0.0,
@@ -55,9 +58,17 @@ impl Ledger {
         }
     }
 
+    /// Takes note of at most how much energy random displacements of the start have put in, eV.
+    pub fn put_in_by_noise(&mut self, energy: f64) {
+        self.noise = energy;
+    }
+
     /// Puts the start where the specimen is now, before any work.
     pub fn begin(&mut self, stored: [f64; 2], kinetic: f64) {
-        *self = Self::new(stored, [kinetic, self.held_kinetic], self.jump);
+        *self = Self {
+            noise: self.noise,
+            ..Self::new(stored, [kinetic, self.held_kinetic], self.jump)
+        };
     }
 
     /// Balances the energies of a moment, `work` being that of the grips so far, and remembers the largest imbalance.
@@ -105,7 +116,10 @@ impl Ledger {
         unresolved: f64,
         fastest: impl FnOnce() -> Vec<f64>,
     ) -> Result<(), SolverError> {
-        let put_in = self.peak_work.max(self.initial_kinetic - self.held_kinetic);
+        let put_in = self
+            .peak_work
+            .max(self.initial_kinetic - self.held_kinetic)
+            .max(self.noise);
         if self.peak_imbalance <= Self::LIMIT * put_in + self.rounding() + unresolved {
             return Ok(());
         }

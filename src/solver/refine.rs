@@ -26,11 +26,16 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             let after = self.energies();
             self.ledger.refine(before, after);
             self.stability_limit = self.body.stability_limit(&self.state);
-            let adapted = self
-                .settings
-                .time_step
-                .adapt(self.clock.time_step, self.stability_limit);
-            self.clock.time_step = adapted.ok_or_else(|| self.step_unstable())?;
+            let longest = self.body.load().longest_step(self.body.spacing());
+            let chosen = self.settings.time_step.choose(self.stability_limit, longest);
+            let chosen = chosen.map_err(|_| self.step_unstable())?;
+            for step in [
+                &mut self.longest_step,
+                &mut self.clock.time_step,
+                &mut self.step_after_next,
+            ] {
+                *step = step.min(chosen);
+            }
         }
         self.cost.book(Phase::Refinement, &mut clock);
         Ok(())

@@ -25,6 +25,8 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             step: self.clock.step,
             time: self.clock.time,
             time_step: self.clock.time_step,
+            step_after_next: self.step_after_next,
+            longest_step: self.longest_step,
             stability_limit: self.stability_limit,
             position: array::from_fn(|_| Vec::new()),
             velocity: array::from_fn(|_| Vec::new()),
@@ -33,6 +35,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             refined_energy: self.ledger.refined(),
             peak_work: self.ledger.peak_work(),
             peak_imbalance: self.ledger.peak_imbalance(),
+            closest_approach: self.body.closest_approach(),
             probes: self.probes.taken(),
             snapshots: self.snapshots.taken(),
             looks: self.looks.taken(),
@@ -60,6 +63,8 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             time: checkpoint.time,
             time_step: checkpoint.time_step,
         };
+        self.step_after_next = checkpoint.step_after_next;
+        self.longest_step = checkpoint.longest_step;
         self.stability_limit = checkpoint.stability_limit;
         self.state.position.clone_from(position);
         self.state.velocity.clone_from(velocity);
@@ -70,6 +75,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             checkpoint.refined_energy,
             [checkpoint.peak_work, checkpoint.peak_imbalance],
         );
+        self.body.restore_closest_approach(checkpoint.closest_approach);
         self.probes.restore(checkpoint.probes, checkpoint.step);
         self.snapshots.restore(checkpoint.snapshots, checkpoint.step);
         self.looks.restore(checkpoint.looks, checkpoint.step);

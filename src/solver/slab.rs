@@ -264,6 +264,18 @@ impl Body<2> for Slab {
         time_step::nine_digits(self.forces.squared_frequency_bound_one_by_one(state))
     }
 
+    fn stiffened(&self, state: &State) -> f64 {
+        self.forces.squared_frequency_of_close_bonds() / state.least_share_of_mass()
+    }
+
+    fn closest_approach(&self) -> f64 {
+        self.forces.closest_approach()
+    }
+
+    fn restore_closest_approach(&mut self, length: f64) {
+        self.forces.restore_closest_approach(length);
+    }
+
     fn is_unbalanced(&mut self) -> bool {
         self.forces.is_unbalanced()
     }
@@ -313,6 +325,14 @@ impl Body<2> for Slab {
 
     fn time_of(&self, strain: f64) -> f64 {
         self.loading.time_of(strain)
+    }
+
+    fn site_of(&self, node: usize) -> [i32; 2] {
+        let mesh = self.forces.mesh();
+        let element = mesh.element_of_node(node);
+        let corners = mesh.nodes_of(element).zip(mesh.elements[element].corners());
+        let own = corners.into_iter().find(|(corner, _)| *corner == node);
+        mesh.elements[element].site(own.map_or([0, 0], |(_, local)| local))
     }
 
     /// From the left edge, and from the crack plane.

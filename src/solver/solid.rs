@@ -218,6 +218,18 @@ impl Body<3> for Solid {
         time_step::nine_digits(self.forces.squared_frequency_bound(&state.position))
     }
 
+    fn stiffened(&self, state: &State<3>) -> f64 {
+        self.forces.squared_frequency_of_close_bonds() / state.least_share_of_mass()
+    }
+
+    fn closest_approach(&self) -> f64 {
+        self.forces.closest_approach()
+    }
+
+    fn restore_closest_approach(&mut self, length: f64) {
+        self.forces.restore_closest_approach(length);
+    }
+
     /// Under its loading at the time 0.
     fn relax(&mut self, state: &mut State<3>, stop: &AtomicBool, tell: &mut dyn FnMut(f64)) -> Result<(), SolverError> {
         let target = Target {
@@ -238,12 +250,16 @@ impl Body<3> for Solid {
         self.extension.rate.map_or(f64::INFINITY, |rate| strain / rate)
     }
 
-    fn reference_place(&self, node: usize) -> Vec<f64> {
+    fn site_of(&self, node: usize) -> [i32; 3] {
         let mesh = self.forces.mesh();
         let element = mesh.element_of_node(node);
         let corner = mesh.nodes_of(element).position(|own| own == node).unwrap_or_default();
         let element = mesh.elements[element];
-        mesh.sites.frame.place(element.site(element.corners()[corner])).to_vec()
+        element.site(element.corners()[corner])
+    }
+
+    fn reference_place(&self, node: usize) -> Vec<f64> {
+        self.forces.mesh().sites.frame.place(self.site_of(node)).to_vec()
     }
 
     fn place_of_element(&self, element: usize) -> Vec<f64> {

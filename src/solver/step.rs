@@ -91,33 +91,45 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         Ok(())
     }
 
-    /// Looks at the stability limit where it is time to, and makes an automatic time step shorter where it has fallen.
+    /// Looks at the stability limit where it is time to, and lets the time step follow it and the close bonds of this step.
+    ///
+    /// What is found here sets the step after the next one: the motion of the next may have been done with the forces.
     fn follow_stability(&mut self, clock: &mut Instant) -> Result<(), SolverError> {
         let Clock {
             step,
             time_step: present,
             ..
         } = self.clock;
-        let chosen = self.settings.time_step;
-        if chosen.is_to_be_checked(step, present, self.stability_limit)
-            || chosen.follows_forces(step) && time_step::is_rough(self.hardest_push())
+        let added = self.body.stiffened(&self.state);
+        if self
+            .settings
+            .time_step
+            .is_to_be_checked(step, present, self.stability_limit)
         {
-            self.stability_limit = self.body.stability_limit(&self.state);
-            let adapted = chosen.adapt(present, self.stability_limit);
-            self.clock.time_step = adapted.ok_or_else(|| self.step_unstable())?;
+            let found = self.body.stability_limit(&self.state);
+            self.stability_limit = time_step::without_close_bonds(found, added, self.stability_limit);
             self.cost.book(Phase::Stability, clock);
         }
+        self.clock.time_step = self.step_after_next;
+        self.step_after_next = self.follow(added).ok_or_else(|| self.step_unstable())?;
         Ok(())
     }
 
-    /// How far the force on a node moves it within a step, over the spacing of the lattice: the largest of all ranks.
-    fn hardest_push(&self) -> f64 {
+    /// The time step after the next one, where close bonds add this to the squared highest frequency.
+    fn follow(&self, added: f64) -> Option<f64> {
+        let Clock { step, time_step, .. } = self.clock;
+        let chosen = self.settings.time_step;
+        let farthest = chosen.follows_speed(step).then(|| self.farthest());
+        chosen.follow(time_step, self.longest_step, [self.stability_limit, added], farthest)
+    }
+
+    /// How far the fastest node of all ranks goes in a step, over the spacing of the lattice.
+    fn farthest(&self) -> f64 {
         let domain = self.body.domain();
         let nodes = domain.nodes().into_iter();
-        let largest = nodes.map(|nodes| integrator::largest_squared_acceleration(&self.state, nodes));
+        let largest = nodes.map(|nodes| integrator::largest_squared_speed(&self.state, nodes));
         let largest = domain.ranks().largest(largest.fold(0.0, f64::max));
-        let time_step = self.clock.time_step;
-        largest.sqrt() * time_step * time_step / self.body.spacing()
+        largest.sqrt() * self.clock.time_step / self.body.spacing()
     }
 
     /// Forces at the present positions, and what elements hold if it is asked for.
@@ -144,7 +156,8 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         let chosen = self.settings.time_step;
         !(self.body.domain().is_called()
             || chosen.is_to_be_checked(step, time_step, self.stability_limit)
-            || chosen.follows_forces(step)
+            || chosen.follows_speed(step)
+            || self.step_after_next != time_step
             || step.is_multiple_of(COMPARE_EVERY))
     }
 

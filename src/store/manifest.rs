@@ -66,6 +66,10 @@ pub struct Outcome {
     pub stability_limit_ps: f64,
     /// Largest energy imbalance over the largest work; `None` where nothing has done work.
     pub energy_error_relative: Option<f64>,
+    /// The closest that sites have come, as a share of the lattice spacing; `None` where none were closer than in a regular
+    /// lattice, and from before it was told.
+    #[serde(default)]
+    pub closest_approach_spacings: Option<f64>,
     /// Largest memory of the last attempt; `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
     /// Time that processors worked for all ranks and threads of all attempts, s; `None` from before it was measured.

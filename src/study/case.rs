@@ -109,6 +109,16 @@ pub struct Run {
     /// Nominal strain under which the specimen comes to rest before it moves; `None`: it moves from the perfect lattice.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relax: Option<f64>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub noise: Option<Noise>,
+}
+
+/// Displacements of all nodes at the start, along each axis evenly up to the amplitude.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Noise {
+    /// In lattice spacings.
+    pub amplitude: f64,
+    pub seed: u32,
 }
 
 /// The run stops at whichever of these comes first; at least one of `strain` and `time` is given.

@@ -17,6 +17,8 @@ pub const GAP: f64 = 0.5;
 pub const SHARE: f64 = 0.5;
 pub const RAMP: Ramp = Ramp::InitialVelocity;
 pub const TIME_STEP: TimeStep = TimeStep::Auto { fraction: 0.5 };
+/// Of noise.
+pub const SEED: u32 = 1;
 pub const SUMMATION: Summation = Summation::Exact;
 pub const MASS: MassMatrix = MassMatrix::Lumped;
 /// Where elements become atoms, whose energy and angular momentum no other mass keeps.

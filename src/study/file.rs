@@ -44,6 +44,8 @@ pub struct StudyFile {
     pub cases: Given<Named<CaseFile>>,
     /// Multiplies every case: a dotted path such as `resolution.element` and its values.
     pub sweep: Given<Sweep>,
+    /// Repeats every case with small random displacements, so that the report tells medians and intervals.
+    pub repeats: Given<Repeats>,
     /// Tables to compare with, each by a name of its own: CSV files in the folder of the study. A column `case` names
     /// cases; the others are named as in the table `summary` (`k_ic_near_tip_mpa_sqrt_m`), or are `wave`, `path` and
     /// `reference_ps` as in `wave_arrival`. A column `ranks` in its place is for times of another program, named as in
@@ -82,6 +84,8 @@ pub struct Run {
     pub mass: Given<MassMatrix>,
     /// The specimen comes to rest under a strain before it moves.
     pub relax: Given<Relax>,
+    /// All nodes are displaced a little before they move, so that repeats can tell what is chance.
+    pub noise: Given<Noise>,
     /// Processes that a case is shared between by MPI.
     pub ranks: Given<u32>,
     /// Threads of each process.
@@ -149,6 +153,32 @@ pub enum MassMatrix {
 pub struct Relax {
     /// Nominal strain under which the run starts; 0 % lets the surfaces relax.
     pub strain: Given<Fraction>,
+}
+
+/// Random displacements of the start, along each axis evenly up to the amplitude. A site of the lattice has the same in every
+/// mesh and on any number of ranks.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Noise {
+    /// In lattice spacings, such as 1e-3; 1e-10 shows how soon two runs part that differ by next to nothing.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 0.1))]
+    pub amplitude: Given<f64>,
+    /// Tells repeats apart; 1 where left out.
+    pub seed: Given<u32>,
+}
+
+/// Every case several times over, each with noise of its own in its start.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
+pub struct Repeats {
+    /// How often each case is computed.
+    #[schemars(range(min = 2, max = 1000))]
+    pub count: Given<u32>,
+    /// As `run.noise.amplitude`, which it sets in all cases.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 0.1))]
+    pub amplitude: Given<f64>,
+    /// Of the first repeat, 1 where left out; the next ones count on from it.
+    pub seed: Given<u32>,
 }
 
 /// The time series.

@@ -59,8 +59,9 @@ field_by_field! {
     OpposedTractions { axis thickness share stress pressure rise_time }
     Pulse { face shape duration stress pressure }
     Impact { face radius speed center gap }
-    Run { until time_step summation mass relax ranks threads checkpoint_every }
+    Run { until time_step summation mass relax noise ranks threads checkpoint_every }
     Relax { strain }
+    Noise { amplitude seed }
     Until { strain time crack_length arrest after_branch leaves_the_plane }
     Probes { every }
 }
@@ -76,7 +77,7 @@ macro_rules! replaced {
 }
 
 replaced! {
-    u32 Lattice Grips Edge NotchEnd Mode Ramp TimeStep Summation MassMatrix Axis Face PulseShape Vec<Given<Face>>
+    u32 f64 Lattice Grips Edge NotchEnd Mode Ramp TimeStep Summation MassMatrix Axis Face PulseShape Vec<Given<Face>>
     Vec<Given<Region>> Vec<Given<Observe>>
 }
 

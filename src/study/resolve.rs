@@ -4,6 +4,7 @@
 
 mod crack;
 mod material;
+mod noise;
 mod refine;
 mod resolution;
 mod run;

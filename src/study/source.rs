@@ -29,7 +29,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 24] = [
+pub static SHIPPED: [Shipped; 26] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml", "case-1/strains.csv"),
@@ -70,6 +70,8 @@ pub static SHIPPED: [Shipped; 24] = [
     ),
     shipped!("branching-control.yaml"),
     shipped!("convergence-D.yaml"),
+    shipped!("repeats-small.yaml"),
+    shipped!("chaos-small.yaml"),
     shipped!("scaling-fixed.yaml", "scaling/table-4-2.csv"),
     shipped!("scaling-scaled.yaml", "scaling/table-4-3.csv"),
     shipped!("quickstart-3d.yaml"),

@@ -7,6 +7,7 @@ mod figures;
 #[cfg(feature = "parquet")]
 mod parquet;
 mod precision;
+mod repeats;
 mod scaling;
 mod side_by_side;
 mod specimen;
@@ -61,6 +62,7 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
         choices: choices.map(|(key, value)| (key.to_owned(), value.to_owned())).to_vec(),
         origin: name.to_owned(),
         swept: Vec::new(),
+        repeat_of: None,
         specimen: None,
         film: Some(film(&setting, if name == "coarse" { 10 } else { 1 })),
         setting: Some(setting),
@@ -82,6 +84,7 @@ fn finished(name: &str, element: u32, nodes: u64, start: f64, wall: f64) -> Case
             stability_limit: Some(0.0439 * f64::from(element).sqrt()),
             steps: Some(8_000),
             energy_error: Some(1.3e-4),
+            closest_approach: Some(0.91),
             peak_memory: Some(3.0e7),
             cost: vec![seconds("force", 0.8), seconds("move", 0.15), seconds("output", 0.05)],
             messages: None,

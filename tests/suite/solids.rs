@@ -79,6 +79,7 @@ fn settings(time: f64) -> Settings {
         consistent_mass: 0.0,
         refine: None,
         relax: false,
+        noise: None,
         until: Until {
             time: Some(time),
             ..Until::default()

@@ -5,6 +5,7 @@ mod damped;
 mod energy;
 mod exploding;
 mod factors;
+mod long_steps;
 mod parted;
 mod refined;
 mod relaxed;
@@ -61,6 +62,7 @@ fn settings(strain: f64) -> Settings {
         consistent_mass: 0.0,
         refine: None,
         relax: false,
+        noise: None,
         until: Until {
             strain: Some(strain),
             ..Until::default()

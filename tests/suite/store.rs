@@ -24,6 +24,7 @@ fn outcome() -> Outcome {
         time_step_ps: 1e-3,
         stability_limit_ps: 1.5e-3,
         energy_error_relative: None,
+        closest_approach_spacings: None,
         peak_memory_bytes: None,
         core_seconds: None,
         cost: Vec::new(),

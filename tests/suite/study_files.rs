@@ -194,6 +194,7 @@ fn a_written_case_reads_back_to_the_same_bits() {
             id: RunId::of(&planned.case),
             origin: planned.name.clone(),
             swept: Vec::new(),
+            repeat_of: None,
             ..planned
         };
         assert_eq!(read_case(path.to_str().unwrap()).unwrap().cases, [alone]);

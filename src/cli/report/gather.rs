@@ -99,6 +99,7 @@ pub fn case_result(survey: &Survey, entry: &Entry, with_film: bool) -> CaseResul
         choices: choices::of_case(&plan::spelled(&entry.planned.case)),
         origin: entry.planned.origin.clone(),
         swept: entry.planned.swept.clone(),
+        repeat_of: entry.planned.repeat_of.clone(),
         manifest: Manifest {
             state: entry.state.word().to_owned(),
             ..Manifest::default()
@@ -199,6 +200,7 @@ fn manifest(done: &store::Manifest) -> Manifest {
         stability_limit: Some(outcome.stability_limit_ps),
         steps: Some(outcome.steps),
         energy_error: outcome.energy_error_relative,
+        closest_approach: outcome.closest_approach_spacings,
         peak_memory: outcome.peak_memory_bytes.map(|bytes| bytes as f64),
         cost: outcome.cost.iter().map(phase).collect(),
         messages: outcome.messages.map(|messages| MessageCost {

@@ -13,8 +13,8 @@ use crate::forces::vector::Vector;
 use crate::lanes::{Lanes, MOST, Mask};
 use crate::potential::{CutPotential, PairShape};
 
-/// Forces on some consecutive sites, x and y, and half of what their bonds hold if it is to be `MEASURED`; returns those
-/// with a watched bond that is not that of a regular lattice, and those that do not move ahead. `atoms`: where they are.
+/// Forces on some consecutive sites, x and y, and half of what their bonds hold if it is to be `MEASURED`; returns what
+/// is found of them. `atoms`: where they are.
 pub fn sum_sites<S: PairShape, const MEASURED: bool>(
     field: &SumField<S>,
     contacts: &Contacts,
@@ -22,12 +22,13 @@ pub fn sum_sites<S: PairShape, const MEASURED: bool>(
     sites: Range<usize>,
     sums: [&mut [f64]; SUMS],
     ahead: Option<Task>,
-) -> (Vec<u32>, Vec<Range<usize>>) {
+) -> Found {
     field.arch.dispatch(Sum::<S, MEASURED> {
         contacts,
         law: *field.law,
         regular: field.regular,
         untouched: field.untouched,
+        close: field.close.squared_length,
         atoms,
         sites,
         sums,
@@ -35,11 +36,24 @@ pub fn sum_sites<S: PairShape, const MEASURED: bool>(
     })
 }
 
+/// What the sums of some sites have found.
+#[derive(Default)]
+pub struct Found {
+    /// Sites with a watched bond that is not that of a regular lattice.
+    pub irregular: Vec<u32>,
+    /// Those that do not move ahead.
+    pub left: Vec<Range<usize>>,
+    /// Those with close neighbours.
+    pub close: Vec<u32>,
+}
+
 struct Sum<'a, S, const MEASURED: bool> {
     contacts: &'a Contacts,
     law: CutPotential<S>,
     regular: Option<Regular>,
     untouched: Option<Regular>,
+    /// Shorter bonds are close, nm^2.
+    close: f64,
     atoms: [&'a [f64]; 2],
     sites: Range<usize>,
     sums: [&'a mut [f64]; SUMS],
@@ -53,6 +67,7 @@ struct SiteSum<L: Simd, const MEASURED: bool> {
     /// xx, yy, xy.
     virial: [Lanes<L>; 3],
     regular: Mask<L>,
+    close: Mask<L>,
 }
 
 impl<L: Simd, const MEASURED: bool> SiteSum<L, MEASURED> {
@@ -63,6 +78,7 @@ impl<L: Simd, const MEASURED: bool> SiteSum<L, MEASURED> {
             count: Count::new(simd),
             virial: [Lanes::all(simd, 0.0); 3],
             regular: Mask::all(simd, true),
+            close: Mask::all(simd, false),
         }
     }
 
@@ -82,12 +98,13 @@ impl<L: Simd, const MEASURED: bool> SiteSum<L, MEASURED> {
 }
 
 impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
-    type Output = (Vec<u32>, Vec<Range<usize>>);
+    type Output = Found;
 
     #[inline(always)]
-    fn with_simd<L: Simd>(mut self, simd: L) -> (Vec<u32>, Vec<Range<usize>>) {
+    fn with_simd<L: Simd>(mut self, simd: L) -> Found {
         let lanes = Lanes::<L>::COUNT;
-        let (mut irregular, mut left) = (Vec::new(), Vec::new());
+        let mut found = Found::default();
+        let mut left = Vec::new();
         let start = self.sites.start;
         let contacts = self.contacts;
         let law = self.law;
@@ -107,13 +124,13 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                         _ => stay.extend((0..whole - sites.start).step_by(lanes)),
                     }
                     for from in stay.into_iter().map(|at| sites.start + at) {
-                        if !self.sum_atoms(simd, &law, from, lanes, steps, &mut irregular) {
+                        if !self.sum_atoms(simd, &law, from, lanes, steps, &mut found) {
                             left.push(from..from + lanes);
                         }
                     }
                     if whole < sites.end {
                         let count = sites.end - whole;
-                        if !self.sum_atoms(simd, &law, whole, count, steps, &mut irregular) {
+                        if !self.sum_atoms(simd, &law, whole, count, steps, &mut found) {
                             left.push(whole..sites.end);
                         }
                     }
@@ -129,7 +146,8 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                         );
                         let sum = self.sum_listed(simd, from, &starts[..=count], &partners);
                         self.store(&sum, from - start, count);
-                        note(&mut irregular, from, count, sum.regular);
+                        note(&mut found.irregular, from, count, sum.regular);
+                        note(&mut found.close, from, count, sum.close.opposite());
                     }
                     left.push(sites);
                 }
@@ -143,13 +161,15 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                         let starts = &starts[from - sites.start..=from - sites.start + count];
                         let sum = self.sum_listed(simd, from, starts, partners);
                         self.store(&sum, from - start, count);
-                        note(&mut irregular, from, count, sum.regular);
+                        note(&mut found.irregular, from, count, sum.regular);
+                        note(&mut found.close, from, count, sum.close.opposite());
                     }
                     left.push(sites);
                 }
             }
         }
-        (irregular, joined(left))
+        found.left = joined(left);
+        found
     }
 }
 
@@ -219,17 +239,17 @@ fn joined(ranges: Vec<Range<usize>>) -> Vec<Range<usize>> {
     joined
 }
 
-/// Notes so many sites from one on that are not regular; whether all are.
+/// Notes so many sites from one on for which this does not hold; whether it holds for all.
 #[inline(always)]
-fn note<L: Simd>(irregular: &mut Vec<u32>, from: usize, count: usize, regular: Mask<L>) -> bool {
-    if regular.every() {
+fn note<L: Simd>(noted: &mut Vec<u32>, from: usize, count: usize, holds: Mask<L>) -> bool {
+    if holds.every() {
         return true;
     }
-    let regular = regular.answers();
-    let before = irregular.len();
-    let sites = (0..count).filter(|&lane| !regular[lane]);
-    irregular.extend(sites.map(|lane| (from + lane) as u32));
-    irregular.len() == before
+    let holds = holds.answers();
+    let before = noted.len();
+    let sites = (0..count).filter(|&lane| !holds[lane]);
+    noted.extend(sites.map(|lane| (from + lane) as u32));
+    noted.len() == before
 }
 
 impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
@@ -265,7 +285,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
         from: usize,
         count: usize,
         steps: &[Step],
-        irregular: &mut Vec<u32>,
+        found: &mut Found,
     ) -> bool {
         let here = self.places(simd, from, count);
         let mut sum = SiteSum::new(simd);
@@ -274,13 +294,15 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
             let there = self.places(simd, from.wrapping_add_signed(step.by as isize), count);
             let bond = there - here;
             let squared = bond.squared();
+            sum.close = sum.close.or(squared.is_below(self.close));
             if let (true, Some(test)) = (step.is_nearest, &self.regular) {
                 sum.regular = sum.regular.and(test.holds(squared, squared));
             }
             let pull = sum.count.slopes(simd, law, squared, one);
             sum.add(pull, [bond.x, bond.y]);
         }
-        let is_regular = note(irregular, from, count, sum.regular);
+        let is_regular = note(&mut found.irregular, from, count, sum.regular);
+        note(&mut found.close, from, count, sum.close.opposite());
         let place = from - self.sites.start;
         if let (Some(ahead), true) = (&mut self.ahead, is_regular) {
             let force = Vector {
@@ -330,6 +352,7 @@ impl<S: PairShape, const MEASURED: bool> Sum<'_, S, MEASURED> {
             let [there_x, there_y] = [there_x, there_y].map(|plane| Lanes::load(simd, &plane, 0));
             let [dx, dy] = [there_x - here_x, there_y - here_y];
             let squared = dx.mul_add(dx, dy * dy);
+            sum.close = sum.close.or(squared.is_below(self.close));
             if let Some(test) = &self.regular {
                 let unwatched = Lanes::load(simd, &unwatched, 0).is_above(0.0);
                 sum.regular = sum.regular.and(test.holds(squared, squared).or(unwatched));

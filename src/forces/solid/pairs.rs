@@ -15,7 +15,8 @@ use super::inside::within;
 use super::measure::{Held, PARTS};
 use super::points::Points;
 use super::vector::Vector;
-use crate::lanes::{Lanes, MOST};
+use crate::forces::close::{Close, Crowd};
+use crate::lanes::{Lanes, MOST, Mask};
 use crate::potential::{CutPotential, PairShape};
 
 /// Where the point is that stands for no partner: too far away for anything.
@@ -285,8 +286,14 @@ impl Pairs {
         self.drift = drift;
     }
 
-    /// Sums the forces on the points; in steps that are `MEASURED` also what their elements hold of the pairs.
-    pub fn sum<S: PairShape, const MEASURED: bool>(&mut self, arch: Arch, law: &CutPotential<S>) {
+    /// Sums the forces on the points; in steps that are `MEASURED` also what their elements hold of the pairs. Returns what
+    /// close bonds do to the points.
+    pub fn sum<S: PairShape, const MEASURED: bool>(
+        &mut self,
+        arch: Arch,
+        law: &CutPotential<S>,
+        close: Close,
+    ) -> Crowd {
         let groups = self.force.len();
         self.held
             .resize(if MEASURED { groups } else { 0 }, [[0.0; MOST]; PARTS]);
@@ -301,32 +308,50 @@ impl Pairs {
         let mut held: Vec<&mut [[Side; PARTS]]> = held.chunks_mut(CHUNK).collect();
         held.resize_with(groups.div_ceil(CHUNK), Default::default);
         let chunks = force.par_chunks_mut(CHUNK).zip(held).enumerate();
-        chunks.for_each(|(chunk, (force, held))| {
+        let crowded = chunks.flat_map_iter(|(chunk, (force, held))| {
             arch.dispatch(Sum::<S, MEASURED> {
                 law: *law,
+                close: close.squared_length,
                 first: chunk * CHUNK,
                 lists,
                 partners,
                 places,
                 force,
                 held,
-            });
+            })
         });
+        let crowded: Vec<usize> = crowded.collect();
+        let crowds = crowded.into_iter().map(|group| self.crowd(law, close, group));
+        crowds.fold(Crowd::NONE, Crowd::and)
+    }
+
+    /// What close bonds do to the points of a group.
+    fn crowd<S: PairShape>(&self, law: &CutPotential<S>, close: Close, group: usize) -> Crowd {
+        let mut crowds = [Crowd::NONE; MOST];
+        self.for_each_of(group, |[point, _], bond| {
+            let squared = bond.iter().map(|component| component * component).sum();
+            crowds[point as usize % MOST].add(close, law, squared, false, 1.0);
+        });
+        crowds.into_iter().fold(Crowd::NONE, Crowd::and)
     }
 
     /// Gives the vector from each point of this rank to each partner.
     pub fn for_each(&self, mut give: impl FnMut([u32; 2], [f64; 3])) {
-        for (group, list) in self.lists.iter().enumerate() {
-            let list = &self.partners[list.start as usize..list.end as usize];
-            for (place, &partner) in list.iter().enumerate() {
-                let point = group * MOST + place % MOST;
-                if (partner as usize) < self.points.len() {
-                    let [here, there] = [self.places[point], self.places[partner as usize]];
-                    give(
-                        [point as u32, partner],
-                        [there[0] - here[0], there[1] - here[1], there[2] - here[2]],
-                    );
-                }
+        (0..self.lists.len()).for_each(|group| self.for_each_of(group, &mut give));
+    }
+
+    /// The same of the points of a group.
+    fn for_each_of(&self, group: usize, mut give: impl FnMut([u32; 2], [f64; 3])) {
+        let list = &self.lists[group];
+        let list = &self.partners[list.start as usize..list.end as usize];
+        for (place, &partner) in list.iter().enumerate() {
+            let point = group * MOST + place % MOST;
+            if (partner as usize) < self.points.len() {
+                let [here, there] = [self.places[point], self.places[partner as usize]];
+                give(
+                    [point as u32, partner],
+                    [there[0] - here[0], there[1] - here[1], there[2] - here[2]],
+                );
             }
         }
     }
@@ -361,6 +386,8 @@ fn at(planes: &Planes, node: usize) -> [f64; 3] {
 /// The sums of some groups of points.
 struct Sum<'a, S, const MEASURED: bool> {
     law: CutPotential<S>,
+    /// Shorter bonds are close, nm^2.
+    close: f64,
     /// Number of the first group.
     first: usize,
     lists: &'a [Range<u32>],
@@ -371,12 +398,14 @@ struct Sum<'a, S, const MEASURED: bool> {
 }
 
 impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
-    type Output = ();
+    /// Groups with close bonds.
+    type Output = Vec<usize>;
 
     #[inline(always)]
-    fn with_simd<L: Simd>(self, simd: L) {
+    fn with_simd<L: Simd>(self, simd: L) -> Vec<usize> {
         let Self {
             law,
+            close,
             first,
             lists,
             partners,
@@ -385,6 +414,7 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
             held,
         } = self;
         let lanes = Lanes::<L>::COUNT;
+        let mut crowded = Vec::new();
         for (number, force) in force.iter_mut().enumerate() {
             let group = first + number;
             let list = &lists[group];
@@ -392,6 +422,7 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                 continue;
             }
             let list = &partners[list.start as usize..list.end as usize];
+            let mut is_crowded = Mask::all(simd, false);
             let mut lane = 0;
             while lane < MOST {
                 let here = gather(simd, places, |k| group * MOST + lane + k);
@@ -400,6 +431,7 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                 for partners in list.chunks_exact(MOST) {
                     let bond = gather(simd, places, |k| partners[lane + k] as usize) - here;
                     let squared = bond.squared();
+                    is_crowded = is_crowded.or(squared.is_below(close));
                     if MEASURED {
                         let values = law.values(simd, squared);
                         of_pairs.add(values, bond, within(simd, &law, squared), Lanes::all(simd, 1.0));
@@ -417,7 +449,11 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                 }
                 lane += lanes;
             }
+            if is_crowded.any() {
+                crowded.push(group);
+            }
         }
+        crowded
     }
 }
 

@@ -15,6 +15,7 @@ use super::strained::{self, Strained};
 use super::sweep::{self, Field, Sweep, Tile};
 use super::{ForceError, Forces, Measure, Planes};
 use crate::domain::{Call, Halo};
+use crate::forces::close::{self, Crowd};
 use crate::lanes::MOST;
 use crate::potential::{CutPotential, PairShape, with_law};
 
@@ -49,11 +50,16 @@ impl Forces {
         self.exchange(position);
         let mut irregular = self.sum_tiles::<S, MEASURED>(&self.tiles, law, position, force, measure);
         loop {
+            self.domain.hears_level();
+            let mut crowd = Crowd::NONE;
             let is_current = self.pairs.as_mut().is_some_and(|pairs| pairs.follow(position));
             if !irregular.is_empty() {
                 self.domain.call(Call::InterfaceChanged);
             } else if !is_current {
                 self.domain.call(Call::ListOutdated);
+            } else if let Some(pairs) = &mut self.pairs {
+                crowd = pairs.sum::<S, MEASURED>(self.arch, law, self.close);
+                self.domain.call_level(close::level(crowd.excess));
             }
             self.agree();
             if self.domain.hears(Call::InterfaceChanged) {
@@ -65,13 +71,11 @@ impl Forces {
                     self.search(position)?;
                 }
             } else {
+                self.shortest = self.shortest.min(crowd.shortest.sqrt());
                 break;
             }
         }
-        let arch = self.arch;
-        if let Some(pairs) = &mut self.pairs {
-            pairs.sum::<S, MEASURED>(arch, law);
-        }
+        self.close_level = self.domain.hears_level();
         self.add_pairs::<MEASURED>(force, measure);
         Ok(())
     }

@@ -43,6 +43,9 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
         rows.number("core_s", |case| case.result.core_seconds()),
         rows.number("atom_steps_per_s", |case| case.atom_steps_a_second()),
         rows.number("energy_error_relative", |case| case.result.manifest.energy_error),
+        rows.number("closest_approach_spacings", |case| {
+            case.result.manifest.closest_approach
+        }),
         rows.number("modulus_gpa", |case| {
             case.findings.modulus.map(|modulus| modulus * GIGAPASCAL)
         }),

@@ -133,9 +133,9 @@ impl Row<'_> {
 
 /// The cases that have a reference and a cost, the references among them; empty where there are too few to learn from.
 pub fn rows<'a>(cases: &'a [Analysed<'a>]) -> Vec<Row<'a>> {
-    let measured = cases
-        .iter()
-        .filter_map(|case| Some((case, &cases[case.reference?], case.core_seconds_a_picosecond()?)));
+    // What repeats differ by is chance, and no error of what they were computed with.
+    let single = cases.iter().filter(|case| case.result.repeat_of.is_none());
+    let measured = single.filter_map(|case| Some((case, &cases[case.reference?], case.core_seconds_a_picosecond()?)));
     let rows: Vec<Row> = measured
         .zip(1..)
         .map(|((case, reference, cost), number)| Row {

@@ -22,6 +22,9 @@ pub fn columns(cases: &[Analysed]) -> Vec<Column> {
         rows.number("wall_s", |case| case.result.manifest.wall_seconds),
         rows.number("atom_steps_per_s", |case| case.atom_steps_a_second()),
         rows.number("energy_error_relative", |case| case.result.manifest.energy_error),
+        rows.number("closest_approach_spacings", |case| {
+            case.result.manifest.closest_approach
+        }),
         rows.number("cutoff_release_ev", |case| {
             case.result.series.probes.last().map(|row| row.cutoff_release)
         }),

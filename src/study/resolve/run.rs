@@ -101,14 +101,15 @@ impl Check<'_> {
         let time_step = self.time_step(&values.time_step);
         let summation = self.summation(&values.summation);
         let mass = self.mass_matrix(&values.mass);
-        let relax = self.relax(&values.relax, &values.until);
-        let parts = until.zip(time_step).zip(summation.zip(mass)).zip(relax);
-        let run = parts.map(|(((until, time_step), (summation, mass)), relax)| Run {
+        let start = self.relax(&values.relax, &values.until).zip(self.noise(&values.noise));
+        let parts = until.zip(time_step).zip(summation.zip(mass)).zip(start);
+        let run = parts.map(|(((until, time_step), (summation, mass)), (relax, noise))| Run {
             until,
             time_step,
             summation,
             mass,
             relax,
+            noise,
         });
         (run, stops)
     }
@@ -349,9 +350,8 @@ impl Check<'_> {
     pub fn probes(&self, given: &Given<file::Probes>) -> Option<Probes> {
         let (values, _) = self.section(given, Place::default())?;
         let every = self.size_if_given(&values.every, "probes.every")?;
-        Some(Probes {
-            every: every.map_or(defaults::PROBES_EVERY, |(every, _)| every),
-        })
+        let every = every.map_or(defaults::PROBES_EVERY, |(every, _)| every);
+        Some(Probes { every })
     }
 
     /// What tells of a crack alone must not be asked of a case without one.

@@ -84,6 +84,7 @@ fn stretched() -> Solver {
         consistent_mass: 0.0,
         refine: None,
         relax: false,
+        noise: None,
         until: Until {
             time: Some(0.01),
             ..Until::default()

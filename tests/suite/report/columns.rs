@@ -4,7 +4,7 @@
 pub const COLUMNS: [(&str, &str); 11] = [
     (
         "summary",
-        "case,nodes,elements,represented_atoms,steps,time_step_ps,wall_s,atom_steps_per_s,energy_error_relative,\
+        "case,nodes,elements,represented_atoms,steps,time_step_ps,wall_s,atom_steps_per_s,energy_error_relative,closest_approach_spacings,\
          cutoff_release_ev,initiation_strain,initiation_time_ps,k_ic_near_tip_mpa_sqrt_m,k_ic_j_integral_mpa_sqrt_m,\
          k_griffith_mpa_sqrt_m,peak_speed_over_c_r,first_branch_time_ps,first_branch_strain,\
          first_bond_strain,first_bond_time_ps,speed_share,joins,leaves_plane_time_ps,leaves_plane_strain,parted_elsewhere_strain",

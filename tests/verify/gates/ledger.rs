@@ -52,6 +52,7 @@ pub fn solver(mesh: Mesh, rate: f64, fraction: f64, until: Until, probe_every: f
         summation: Summation::Exact,
         consistent_mass: 0.0,
         relax: false,
+        noise: None,
         until,
         probe_every,
         snapshot_every: None,

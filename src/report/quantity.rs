@@ -21,6 +21,7 @@ pub enum Quantity {
     BranchTime,
     BranchStrain,
     BranchAngle,
+    ArrestTime,
     WorkDensity,
 }
 
@@ -42,6 +43,7 @@ impl Quantity {
             Self::BranchTime,
             Self::BranchStrain,
             Self::BranchAngle,
+            Self::ArrestTime,
             Self::WorkDensity,
         ]);
         all
@@ -62,6 +64,7 @@ impl Quantity {
             Self::BranchTime => "first_branch_after_start_ps",
             Self::BranchStrain => "first_branch_strain",
             Self::BranchAngle => "first_branch_angle_deg",
+            Self::ArrestTime => "arrest_after_start_ps",
             Self::WorkDensity => "work_density_mj_m3",
         }
     }
@@ -80,6 +83,7 @@ impl Quantity {
             Self::BranchTime => "first branch after the start (ps)".to_owned(),
             Self::BranchStrain => "first branch at strain (%)".to_owned(),
             Self::BranchAngle => "first branch at angle (°)".to_owned(),
+            Self::ArrestTime => "stands still from (ps after the start)".to_owned(),
             Self::WorkDensity => "area under stress over strain (MJ/m³)".to_owned(),
         }
     }
@@ -101,6 +105,7 @@ impl Quantity {
             Self::BranchTime => first_branch::after_start(case),
             Self::BranchStrain => Some(branch()?.strain),
             Self::BranchAngle => Some(branch()?.angle),
+            Self::ArrestTime => arrest(case),
             Self::WorkDensity => Some(case.result.series.work_density()? * MEGAJOULE_A_CUBIC_METRE),
         }
     }
@@ -128,7 +133,7 @@ impl Quantity {
         };
         let text = shown(value * factor);
         let unit = match self {
-            Self::InitiationTime | Self::BranchTime => Some("ps"),
+            Self::InitiationTime | Self::BranchTime | Self::ArrestTime => Some("ps"),
             Self::BranchAngle => Some("°"),
             _ => None,
         };
@@ -139,6 +144,15 @@ impl Quantity {
             (Some(from), None) => format!("{text} ({})", signed_percent(value / from - 1.0)),
         }
     }
+}
+
+/// When the main crack last advances, ps after its start, where it stands still at the end of the run.
+fn arrest(case: &Analysed) -> Option<f64> {
+    case.findings.branches.first().filter(|main| main.arrested)?;
+    let tips = &case.findings.tips;
+    let farthest = tips.iter().map(|tip| tip.x).max_by(f64::total_cmp)?;
+    let last = tips.iter().position(|tip| tip.x == farthest)?;
+    Some(case.result.series.probes.get(last)?.time - case.findings.initiation?.time)
 }
 
 /// What rounding leaves of equal moments, ps, and angles, degrees.
