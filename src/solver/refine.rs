@@ -6,6 +6,7 @@ use super::Solver;
 use super::body::Instruments;
 use super::cost::Phase;
 use super::error::SolverError;
+use crate::loading::Load;
 
 impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     /// Where it is time to look, goes over to a finer mesh if the present one is too coarse for what it carries. All ranks decide

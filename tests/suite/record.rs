@@ -35,6 +35,7 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         time: number(1),
         time_step: 2.5e-3,
         step_after_next: number(6),
+        longest_step: 0.0375,
         stability_limit: number(5),
         position: [column(10), column(20)],
         velocity: [column(30), column(40)],

@@ -70,6 +70,7 @@ fn a_checkpoint_of_a_solid_reads_back_to_the_bit() {
         time: number(1),
         time_step: number(2),
         step_after_next: number(4),
+        longest_step: 0.0375,
         stability_limit: number(3),
         position: [plane(10), plane(20), plane(30)],
         velocity: [plane(40), plane(50), plane(60)],
