@@ -41,7 +41,7 @@ fn the_cases_of_the_quickstart_keep_their_ids() {
     let ids = planned(include_str!("../../studies/quickstart.yaml"))
         .into_iter()
         .map(|case| case.id.case.to_string());
-    assert!(ids.eq(["67a51c3c986faba0", "77aaab5fd588a2fd", "892c65f0ca525cf3"]));
+    assert!(ids.eq(["67a51c3c986faba0", "595ed7a748c10740", "892c65f0ca525cf3"]));
 }
 
 #[test]

@@ -180,7 +180,7 @@ fn a_shipped_study_is_found_by_its_name_alone() {
     assert_eq!(plan.study, "quickstart");
     assert_eq!(
         plan.cases.iter().map(|case| case.name.as_str()).collect::<Vec<_>>(),
-        ["coarse", "mixed", "atoms"]
+        ["coarse", "refined", "atoms"]
     );
     let message = study::read("elsewhere/quickstart.yaml").unwrap_err().to_string();
     assert!(message.contains("no such file"), "{message}");
