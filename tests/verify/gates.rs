@@ -8,6 +8,7 @@ mod models;
 mod pulses;
 mod running;
 mod single_edge;
+mod solid_pulses;
 mod sponge;
 mod statics;
 mod strip;

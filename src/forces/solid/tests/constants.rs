@@ -128,3 +128,58 @@ fn parting_a_body_costs_the_surface_energy_of_its_bonds() {
         );
     }
 }
+
+#[test]
+fn parting_boxes_of_atoms_along_three_planes_costs_the_surface_energies_of_the_crystal() {
+    // The number of bonds of a vector through a plane of m x n cells is bilinear in m and n: mixed second differences leave the
+    // plane alone, without its rims.
+    const TOLERANCE: f64 = 1e-8;
+    let planes = [
+        ([1, 1, 1], [-1, -1, 2], [1.0, 3f64.sqrt()]),
+        ([1, 0, 0], [0, 0, 1], [2f64.sqrt(); 2]),
+        ([1, 1, 0], [0, 0, 1], [1.0, 2f64.sqrt()]),
+    ];
+    for (cutoff, at_cutoff) in [(1.5, AtCutoff::Smooth { from: 1.4 }), (2.5, AtCutoff::Shifted)] {
+        let shape = LennardJones {
+            epsilon: 1.0,
+            sigma: 1.0,
+        };
+        let law = CutPotential::new(shape, cutoff, at_cutoff);
+        let material = Material::face_centred_cubic(Interaction::LennardJones(law), 1.0).expect("the potential binds");
+        for (normal, z, periods) in planes {
+            let y = [
+                z[1] * normal[2] - z[2] * normal[1],
+                z[2] * normal[0] - z[0] * normal[2],
+                z[0] * normal[1] - z[1] * normal[0],
+            ];
+            let parted = |cells: [f64; 2]| {
+                let [height, width] = [0, 1].map(|axis| cells[axis] * periods[axis] - 0.1);
+                let mesh = Solid::new(&Plan {
+                    sites: Sites {
+                        outline: Outline::Box([8.0, height, width].map(|side| side * material.spacing)),
+                        frame: Frame::along([normal, y, z], material.spacing),
+                        removed: vec![],
+                    },
+                    element: 1,
+                    regions: vec![],
+                    spacing: material.spacing,
+                });
+                let mut position = mesh.node_positions();
+                let mut forces = Forces::new(mesh, material);
+                let before = energy(&mut forces, &mut position);
+                let beyond = |place: &&mut f64| **place > 4.1 * material.spacing;
+                position[0].iter_mut().filter(beyond).for_each(|place| *place += 4.0);
+                energy(&mut forces, &mut position) - before
+            };
+            let [few, many] = [4.0, 6.0];
+            let of_cells = parted([many, many]) - parted([many, few]) - parted([few, many]) + parted([few, few]);
+            let area = (many - few).powi(2) * periods[0] * periods[1] * material.spacing.powi(2);
+            let expected = Cubic::parting_energy(&material, normal.map(f64::from));
+            assert!(
+                (of_cells / area / expected - 1.0).abs() < TOLERANCE,
+                "{normal:?}, {cutoff}: {} for {expected}",
+                of_cells / area
+            );
+        }
+    }
+}
