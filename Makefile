@@ -24,7 +24,7 @@ help:
 	@echo 'make models-A-E   models A to E of Deng (2011) at full size; writes reports/models-A-E'
 	@echo 'make chapter-5    the same, then in small elements, mixed, in atoms (D alone), cases 1 and 2, branching-control and convergence-D, each also by its name'
 	@echo 'make chapter-6    the film, the film under mixed load, the plate under a ball and the block of chapter 6 in elements, each also by its name; ONLY= for all cases, also those with atoms'
-	@echo 'make scaling      what ranks gain here, and what more of them would; writes reports/scaling-fixed and reports/scaling-scaled'
+	@echo 'make scaling      what ranks gain here, and what more of them would; writes reports/scaling-*'
 	@echo 'make check        everything to be checked before a commit: format, lints, tests, schema'
 	@echo 'make install      put cgaft and cgaft-solve on the PATH (PREFIX=DIR: into DIR/bin), with their man pages'
 	@echo 'make schema       write schemas/study.schema.json again from the types'
@@ -89,8 +89,9 @@ $(CHAPTER_6): build
 scaling: build
 	$(TARGET)/release/cgaft study run studies/scaling-fixed.yaml --fresh --results $(TARGET)/results
 	$(TARGET)/release/cgaft study run studies/scaling-scaled.yaml --fresh --results $(TARGET)/results
-	reports/keep $(TARGET)/results/scaling-fixed
-	reports/keep $(TARGET)/results/scaling-scaled
+	$(TARGET)/release/cgaft study run studies/scaling-fixed-3d.yaml --fresh --results $(TARGET)/results
+	$(TARGET)/release/cgaft study run studies/scaling-scaled-3d.yaml --fresh --results $(TARGET)/results
+	for study in scaling-fixed scaling-scaled scaling-fixed-3d scaling-scaled-3d; do reports/keep $(TARGET)/results/$$study; done
 
 check: lint test
 	$(TARGET)/release/cgaft schema | diff schemas/study.schema.json - \

@@ -1,7 +1,6 @@
 //! Specimens: which lattice sites there are, which element carries each, and which elements are neighbours.
 //!
-//! A mesh knows no forces. Elements share no nodes: triangles come first, three nodes each, then the atoms, one each. How
-//! the nodes of triangles are numbered is said in [`groups`].
+//! A mesh knows no forces. Elements share no nodes: triangles come first, then the atoms. [`groups`] tells how nodes are numbered.
 
 pub mod cut;
 pub mod element;
@@ -237,16 +236,11 @@ impl Grouped for Mesh {
 
     fn mass_couplings(&self) -> Vec<MassCoupling> {
         let mut of_size: HashMap<i32, f64> = HashMap::new();
-        let groups = self.groups.all().iter();
-        let couplings = groups.map(|group| {
+        let coupling = self.groups.all().iter().map(|group| {
             let element = &self.elements[group.elements.start];
-            MassCoupling {
-                corners: 3,
-                share: *of_size.entry(group.size).or_insert_with(|| element.mass_coupling()),
-                opposite: 0.0,
-            }
+            MassCoupling::even(3, *of_size.entry(group.size).or_insert_with(|| element.mass_coupling()))
         });
-        couplings.collect()
+        coupling.collect()
     }
 }
 

@@ -140,7 +140,7 @@ fn write_slabs(study: &Study, folder: &Path) -> Result<(), ReportError> {
     let cases = analysed(&study.cases);
     let others: Vec<Vec<Analysed>> = study.others.iter().map(|other| analysed(&other.cases)).collect();
     let panels = side_by_side::panels(study, &cases, &others);
-    let scaling = scaling::findings(study, &cases);
+    let scaling = scaling::findings(study);
     let mut tables = tables::all(&cases, &study.comparisons, &panels, scaling.as_ref())?;
     for table in &mut tables {
         table.write(&folder.join("tables"))?;

@@ -1,5 +1,6 @@
 //! A resolved case becomes a ready solver, and a run its folder.
 
+mod burden;
 mod caution;
 mod error;
 mod estimate;
@@ -11,11 +12,11 @@ mod run;
 pub mod slab;
 pub mod solid;
 
+pub use burden::burdens;
 pub use caution::cautions;
 pub use error::SetupError;
 pub use estimate::{Estimate, Estimator, Specimen};
 pub use run::{Finished, MOST_THREADS_A_CORE, RunCaseError, run_case};
-pub use slab::burden::burdens;
 pub use slab::geometry::{Geometry, Notch, Size};
 pub use slab::leftovers::Leftovers;
 
@@ -79,10 +80,7 @@ fn settings(case: &Case, time_of: impl Fn(f64) -> f64) -> solver::Settings {
             case::Summation::StrictGauss { points } => Summation::StrictGauss { points },
             case::Summation::Nodal => Summation::Nodal,
         },
-        consistent_mass: match case.run.mass {
-            case::MassMatrix::Lumped => 0.0,
-            case::MassMatrix::Blend(share) => share,
-        },
+        consistent_mass: case.run.mass.consistent_share(),
         refine: None,
         relax: case.run.relax.is_some(),
         until: solver::Until {

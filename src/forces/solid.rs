@@ -7,6 +7,7 @@
 //! Interfaces are used where the potential reaches nearest neighbours alone. One is intact as long as all of its bonds are
 //! within the cutoff and no second neighbours across it are; then it opens for good.
 
+mod burden;
 mod certified;
 mod drift;
 mod edges;
@@ -28,6 +29,7 @@ mod sweep;
 mod tests;
 mod vector;
 
+pub use burden::burdens;
 pub use measure::Measure;
 
 use std::collections::HashMap;

@@ -15,6 +15,15 @@ pub struct MassCoupling {
 }
 
 impl MassCoupling {
+    /// Nodes none of which is opposite another.
+    pub fn even(corners: usize, share: f64) -> Self {
+        Self {
+            corners,
+            share,
+            opposite: 0.0,
+        }
+    }
+
     /// With only a share of it, the rest of the masses lumped.
     pub fn times(self, share: f64) -> Self {
         Self {

@@ -51,6 +51,16 @@ pub const COMPARED: [Compared; 6] = [
             "leaves_plane_time_ps",
             "leaves_plane_strain",
             "parted_elsewhere_strain",
+            // Of solids.
+            "core_s",
+            "modulus_gpa",
+            "peak_stress_gpa",
+            "peak_time_ps",
+            "peak_strain",
+            "first_break_time_ps",
+            "first_break_strain",
+            "broken_bonds",
+            "period_ps",
         ],
     },
     Compared {

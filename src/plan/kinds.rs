@@ -27,7 +27,6 @@ pub fn refuse(study: &Study, cases: &[PlannedCase], origins: &[Origin], findings
     let parts = report.map(|report| {
         [
             ("stages", report.stages.place()),
-            ("scaling", report.scaling.place()),
             ("beside", report.beside.place()),
             ("side-by-side", report.side_by_side.place()),
         ]
@@ -37,9 +36,5 @@ pub fn refuse(study: &Study, cases: &[PlannedCase], origins: &[Origin], findings
             let message = format!("`report.{part}` is for slabs: the report of solids sets all cases side by side");
             findings.add(Finding::at(place, message).help("leave it out"));
         }
-    }
-    if let Some(place) = study.content.compare.place() {
-        let message = "`compare` is for slabs: the report of solids has no tables from elsewhere";
-        findings.add(Finding::at(place, message).help("leave it out, and set cases side by side"));
     }
 }

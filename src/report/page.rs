@@ -63,9 +63,9 @@ impl Page<'_> {
             groups => list(&self.groups(), group),
             specimens => list(&specimen::notes(self.cases), pair),
             agreement => list(&agreement::notes(self.cases, &self.study.comparisons, self.tables), pair),
-            scaling => self.scaling.map(|found| self.scaling(found)),
+            scaling => self.scaling.map(|found| gain(self.study, found)),
             economies => self.economies(),
-            comparisons => list(&self.study.comparisons, |comparison| self.comparison(comparison)),
+            comparisons => list(&self.study.comparisons, |one| compared(one, self.tables)),
             panels => list(self.panels, panel),
             missing => self.study.others.iter().filter_map(|other| other.missing.clone()).collect::<Vec<String>>(),
             galleries => list(self.galleries, gallery),
@@ -106,28 +106,11 @@ impl Page<'_> {
         }
     }
 
-    /// Times, speedup and efficiency over ranks.
-    fn scaling(&self, found: &scaling::Findings) -> Value {
-        let rows: Vec<Vec<String>> = found.rows.iter().map(scaling::cells).collect();
-        context! { columns => scaling::HEADS, rows, notes => list(&scaling::notes(self.study, self.cases, found), pair) }
-    }
-
     /// The cheapest case that is near enough, for each quantity; nothing where there are too few cases.
     fn economies(&self) -> Option<Value> {
         let rows = speed_against_error::rows(self.cases);
         let (heads, lines) = cheapest::shown(&rows);
         (!lines.is_empty()).then(|| context! { heads, rows => lines })
-    }
-
-    /// What comes from elsewhere beside what the cases say.
-    fn comparison(&self, comparison: &Comparison) -> Value {
-        let lines = comparison::lines(comparison, self.tables);
-        context! {
-            name => &comparison.name,
-            file => &comparison.file,
-            notes => &comparison.notes,
-            rows => list(&lines, |line| line.cells().to_vec().into()),
-        }
     }
 }
 
@@ -135,6 +118,7 @@ impl Page<'_> {
 pub struct Solids<'a> {
     pub study: &'a Study,
     pub cases: &'a [&'a CaseResult],
+    pub scaling: Option<&'a scaling::Findings>,
     /// Its first sentences.
     pub verdict: Vec<String>,
     pub groups: Vec<Group>,
@@ -167,6 +151,8 @@ impl Solids<'_> {
             names => list(self.cases, |case| case.name.as_str().into()),
             many => self.cases.len() > MOST_ABREAST,
             groups => list(&self.groups, group),
+            scaling => self.scaling.map(|found| gain(self.study, found)),
+            comparisons => list(&self.study.comparisons, |one| compared(one, self.tables)),
             galleries => list(self.galleries, gallery),
             charts => self.charts.iter().zip(self.drawn).map(chart).collect::<Vec<Value>>(),
             tables => list(self.tables, table),
@@ -177,6 +163,23 @@ impl Solids<'_> {
             version => versions.find(|version| !version.is_empty()),
         };
         rendered(name, template, page)
+    }
+}
+
+/// Times, speedup and efficiency over ranks.
+fn gain(study: &Study, found: &scaling::Findings) -> Value {
+    let rows: Vec<Vec<String>> = found.rows.iter().map(scaling::cells).collect();
+    context! { columns => scaling::HEADS, rows, notes => list(&scaling::notes(study, found), pair) }
+}
+
+/// What comes from elsewhere beside what the cases say.
+fn compared(comparison: &Comparison, tables: &[Table]) -> Value {
+    let lines = comparison::lines(comparison, tables);
+    context! {
+        name => &comparison.name,
+        file => &comparison.file,
+        notes => &comparison.notes,
+        rows => list(&lines, |line| line.cells().to_vec().into()),
     }
 }
 

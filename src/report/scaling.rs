@@ -10,7 +10,7 @@ use polars::prelude::Column;
 
 use super::numbers::{ABSENT, count, significant};
 use super::table::Rows;
-use super::{Analysed, Study};
+use super::{CaseResult, Study};
 use crate::analysis::scaling::{OneProcessor, Times, predicted};
 use crate::domain::MessageCost;
 use crate::plan::Comparison;
@@ -74,25 +74,29 @@ impl Row {
 }
 
 /// `None` where the study does not ask for it.
-pub fn findings(study: &Study, cases: &[Analysed]) -> Option<Findings> {
+pub fn findings(study: &Study) -> Option<Findings> {
     let scaling = study.scaling.as_ref()?;
     let growth = |ranks: u32| scaling.growth.with(ranks);
-    let mut measured: Vec<(&Analysed, Times)> = cases
+    let mut measured: Vec<(&CaseResult, Times)> = study
+        .cases
         .iter()
         .filter_map(|case| times(case).map(|times| (case, times)))
         .collect();
     measured.sort_by_key(|(_, times)| times.ranks);
-    let elements = |case: &Analysed| case.result.setting.as_ref().map(|setting| setting.elements);
+    let elements = |case: &CaseResult| match &case.solid {
+        Some(solid) => solid.specimen.blocks.or(Some(solid.specimen.elements)),
+        None => case.setting.as_ref().map(|setting| setting.elements),
+    };
     let mut rows = Vec::new();
     if let Some((_, fewest)) = measured.first() {
         let one = fewest.on_one(growth(fewest.ranks));
         rows.extend(measured.iter().map(|(case, times)| {
-            let of = Of::Case(case.name().to_owned());
+            let of = Of::Case(case.name.clone());
             Row::new(of, elements(case), *times, &one, growth(times.ranks))
         }));
     }
     let one = measured.iter().find(|(_, times)| times.ranks == 1);
-    let messages = measured.iter().find_map(|(case, _)| case.result.manifest.messages);
+    let messages = measured.iter().find_map(|(case, _)| case.manifest.messages);
     if let Some(((case, one), messages)) = one.zip(messages) {
         let ideal = one.on_one(1.0);
         rows.extend(scaling.burdens.iter().map(|burden| {
@@ -119,8 +123,8 @@ pub fn findings(study: &Study, cases: &[Analysed]) -> Option<Findings> {
 }
 
 /// The phases of a run as the steps of the source; `None` where it is not done.
-fn times(case: &Analysed) -> Option<Times> {
-    let manifest = &case.result.manifest;
+fn times(case: &CaseResult) -> Option<Times> {
+    let manifest = &case.manifest;
     let known = |name: &str| {
         let phase = manifest.cost.iter().find(|phase| phase.name == name);
         phase.map(|phase| phase.seconds)

@@ -4,6 +4,7 @@ mod figures;
 mod findings;
 mod method;
 mod overview;
+mod period;
 mod picture;
 mod series;
 pub mod specimen;
@@ -17,7 +18,7 @@ pub use specimen::{Crystal, Solid, Specimen};
 use std::path::Path;
 
 use super::page::Solids;
-use super::{CaseResult, ReportError, Study, save};
+use super::{CaseResult, ReportError, Study, save, scaling};
 use findings::Findings;
 use surfaces::Surface;
 
@@ -91,11 +92,13 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
             })
         })
         .collect::<Result<_, ReportError>>()?;
-    let mut tables = tables::all(&cases)?;
+    let scaling = scaling::findings(study);
+    let mut tables = tables::all(&cases, &study.comparisons, scaling.as_ref())?;
     for table in &mut tables {
         table.write(&folder.join("tables"))?;
     }
-    let charts = figures::charts(&cases);
+    let mut charts = scaling.as_ref().map(scaling::charts).unwrap_or_default();
+    charts.extend(figures::charts(&cases));
     let mut drawn = Vec::new();
     for chart in &charts {
         let svg = chart.draw(study.figure_width)?;
@@ -108,7 +111,11 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
     let page = Solids {
         study,
         cases: &results,
-        verdict: verdict::sentences(&cases),
+        scaling: scaling.as_ref(),
+        verdict: match scaling.as_ref().and_then(scaling::verdict) {
+            Some(gain) => vec![verdict::done(&cases), gain],
+            None => verdict::sentences(&cases),
+        },
         groups: overview::groups(&cases),
         notes: method::notes(&cases),
         tables: &tables,

@@ -1,5 +1,7 @@
 //! A solid becomes a mesh, a loading and a solver.
 
+mod bar;
+pub mod burden;
 mod estimate;
 mod experiment;
 mod faces;
@@ -7,6 +9,7 @@ mod plan;
 mod specimen;
 mod words;
 
+pub use bar::bar;
 pub use estimate::Estimator;
 pub use plan::{Laid, lay_out};
 pub use specimen::{Kind, Specimen};
@@ -17,6 +20,7 @@ use super::{SetupError, interaction};
 use crate::domain::Ranks;
 use crate::material::Material;
 use crate::mesh::solid::Solid as Mesh;
+use crate::solver::solid::Experiment;
 use crate::solver::{self, Solver};
 use crate::study::Subject;
 use crate::study::case::solid::{Loading, Notch};
@@ -68,15 +72,29 @@ pub fn refuse_what_is_not_there(case: &Case, solid: &Solid) -> Result<(), SetupE
             "in this version a solid is summed by every bond, or by a few points a patch where faces are hardly bent",
             "write `summation: {gauss: 6}`, `{gauss: 3}` or `exact`",
         ),
-        (
-            case.run.mass != MassMatrix::Lumped,
-            Subject::Mass,
-            "in this version the masses of a solid are lumped",
-            "leave `mass` out",
-        ),
     ];
     match asked.into_iter().find(|(is_asked, ..)| *is_asked) {
         Some((_, subject, message, help)) => Err(SetupError::NotThere { subject, message, help }),
+        None => Ok(()),
+    }
+}
+
+/// Coupled masses of an element answer to forces together: either all of its nodes are free, or none.
+fn refuse_half_held_elements(mesh: &Mesh, experiment: &Experiment) -> Result<(), SetupError> {
+    let actions = experiment.actions.iter();
+    let mut held: Vec<u32> = actions.flat_map(|(_, action)| action.held()).collect();
+    held.sort_unstable();
+    let is_held = |node: usize| held.binary_search(&(node as u32)).is_ok();
+    let half_held = (0..mesh.parts).find(|&part| {
+        let mut nodes = mesh.nodes_of(part);
+        nodes.clone().any(is_held) && !nodes.all(is_held)
+    });
+    match half_held {
+        Some(_) => Err(SetupError::NotThere {
+            subject: Subject::Mass,
+            message: "some elements are held or moved in part, and the masses of their nodes are coupled",
+            help: "hold and move whole blocks: leave out `layers` and `depth`; or write `mass: lumped`",
+        }),
         None => Ok(()),
     }
 }
@@ -92,6 +110,9 @@ pub fn solver(case: &Case, solid: &Solid, ranks: Ranks) -> Result<Solver<solver:
     ranks.wait_for_all();
     let mesh = Mesh::new(&laid.plan);
     let experiment = experiment::experiment(solid, &laid, &mesh, &material)?;
+    if case.run.mass != MassMatrix::Lumped {
+        refuse_half_held_elements(&mesh, &experiment)?;
+    }
     Ok(Solver::of_solid(
         ranks,
         mesh,

@@ -29,7 +29,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 24] = [
+pub static SHIPPED: [Shipped; 27] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml", "case-1/strains.csv"),
@@ -72,8 +72,11 @@ pub static SHIPPED: [Shipped; 24] = [
     shipped!("convergence-D.yaml"),
     shipped!("scaling-fixed.yaml", "scaling/table-4-2.csv"),
     shipped!("scaling-scaled.yaml", "scaling/table-4-3.csv"),
+    shipped!("scaling-fixed-3d.yaml", "scaling/table-4-2.csv"),
+    shipped!("scaling-scaled-3d.yaml", "scaling/table-4-3.csv"),
     shipped!("quickstart-3d.yaml"),
-    shipped!("wave-bar.yaml"),
+    shipped!("wave-bar.yaml", "wave-bar/lammps.csv"),
+    shipped!("speed-against-error-3d.yaml", "speed-against-error-3d/lammps.csv"),
     shipped!("film-3d.yaml"),
     shipped!("film-3d-small.yaml"),
     shipped!("mixed-mode.yaml"),

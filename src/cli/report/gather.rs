@@ -42,10 +42,11 @@ pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
             .map(|entry| {
                 let mut result = case_result(survey, entry, true);
                 // Where this machine cannot hold the mesh its specimen is not told.
-                match estimator.specimen(&entry.planned.case) {
-                    Ok(setup::Specimen::Slab(laid)) => result.specimen = Some(specimen(&laid)),
-                    Ok(setup::Specimen::Solid(laid)) => solid::tell(&mut result, &laid),
-                    Err(_) => (),
+                let case = &entry.planned.case;
+                match (estimator.specimen(case), case.solid()) {
+                    (Ok(setup::Specimen::Slab(laid)), _) => result.specimen = Some(specimen(&laid)),
+                    (Ok(setup::Specimen::Solid(laid)), Some(solid)) => solid::tell(&mut result, solid, &laid),
+                    _ => (),
                 }
                 result
             })
@@ -78,8 +79,7 @@ fn scaling(survey: &Survey) -> Option<Scaling> {
     let growth = survey.plan.scaling?;
     let case = &survey.plan.cases.first()?.case;
     let counts: Vec<u32> = (0..=MOST_RANKS.ilog2()).map(|power| 1 << power).collect();
-    let slab = case.slab()?;
-    let burdens = setup::burdens(slab, &case.run.until, case.execution.ranks?, growth, &counts);
+    let burdens = setup::burdens(case, case.execution.ranks?, growth, &counts);
     // Where this machine cannot hold the mesh there is nothing to predict from.
     let burdens = burdens.unwrap_or_default();
     let compared = survey.plan.comparisons.iter().cloned();

@@ -295,3 +295,19 @@ fn gauss_rules_come_near_the_sum_over_all_bonds_and_conserve_momentum() {
         }
     }
 }
+
+#[test]
+fn ranks_that_share_a_bar_hear_from_their_neighbours_as_many_nodes_as_lie_beside_them() {
+    let material = material(SHORT);
+    let mesh = solid([12, 12, 96], 6, vec![], vec![], material.spacing);
+    let [one, two, eight]: [crate::domain::Burden; 3] = burdens(&mesh, &material, &[1, 2, 8]).try_into().unwrap();
+    assert_eq!((one.work, one.messages, one.bytes), (1.0, 0, 0));
+    assert_eq!((two.work, two.messages), (0.5, 1));
+    // An inner part has two neighbours, each with a layer of four blocks: octahedra and tetrahedra that touch it.
+    assert_eq!((eight.work, eight.messages), (0.125, 2));
+    assert!(
+        eight.bytes > two.bytes && eight.bytes <= 2 * 4 * 14 * 24,
+        "{}",
+        eight.bytes
+    );
+}

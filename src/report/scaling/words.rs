@@ -1,7 +1,7 @@
 //! What ranks gain, in words.
 
 use super::{Findings, Of, Row, number};
-use crate::report::{Analysed, Study};
+use crate::report::{CaseResult, Study};
 use crate::study::Growth;
 
 /// `2 ranks are 1.7 times as fast as one: efficiency 0.85. Predicted for 512 ranks: efficiency 0.41.`
@@ -27,12 +27,14 @@ pub fn verdict(findings: &Findings) -> Option<String> {
 }
 
 /// A topic and what is to be said of it.
-pub fn notes(study: &Study, cases: &[Analysed], findings: &Findings) -> Vec<(&'static str, String)> {
+pub fn notes(study: &Study, findings: &Findings) -> Vec<(&'static str, String)> {
     let Some(scaling) = &study.scaling else {
         return Vec::new();
     };
+    let cases = &study.cases;
     let notes = [
         ("Same bits", same_bits(scaling.growth, cases)),
+        ("Elements", blocks(cases)),
         ("Steps", Some(STEPS.to_owned())),
         ("One processor", Some(one_processor(scaling.growth, findings))),
         ("Misprints", Some(MISPRINTS.to_owned())),
@@ -56,11 +58,20 @@ const STEPS: &str = "INP is everything before the first step (mesh, set-up) but 
 const MISPRINTS: &str = "The source prints Eq. (4-3) with γ − (1 − γ)/P, which is negative for one processor and small γ; \
      Amdahl's law, which is meant, has the sum. In Eq. (4-2) it prints T_PUT for T_OUT.";
 
+/// What is counted of a solid.
+fn blocks(cases: &[CaseResult]) -> Option<String> {
+    let is_of_blocks = |case: &CaseResult| case.solid.as_ref().is_some_and(|solid| solid.specimen.blocks.is_some());
+    cases
+        .iter()
+        .any(is_of_blocks)
+        .then(|| "Blocks, as in the source: each is two tetrahedra and an octahedron.".to_owned())
+}
+
 /// Whether runs of one case have left the same bytes.
-fn same_bits(growth: Growth, cases: &[Analysed]) -> Option<String> {
-    let digests: Option<Vec<&String>> = cases.iter().map(|case| case.result.digest.as_ref()).collect();
+fn same_bits(growth: Growth, cases: &[CaseResult]) -> Option<String> {
+    let digests: Option<Vec<&String>> = cases.iter().map(|case| case.digest.as_ref()).collect();
     let digests = digests.filter(|digests| growth == Growth::Fixed && digests.len() > 1)?;
-    let names: Vec<&str> = cases.iter().map(Analysed::name).collect();
+    let names: Vec<&str> = cases.iter().map(|case| case.name.as_str()).collect();
     let names = names.join(", ");
     Some(match digests.iter().all(|digest| *digest == digests[0]) {
         true => format!(
@@ -96,10 +107,10 @@ fn one_processor(growth: Growth, findings: &Findings) -> String {
 }
 
 /// What every rank of the largest specimen would hold.
-fn memory(growth: Growth, cases: &[Analysed], findings: &Findings) -> Option<String> {
+fn memory(growth: Growth, cases: &[CaseResult], findings: &Findings) -> Option<String> {
     let last = findings.rows.iter().rev().find(|row| row.of == Of::Prediction)?;
-    let one = cases.iter().find(|case| case.result.manifest.ranks == Some(1))?;
-    let bytes = one.result.manifest.peak_memory.filter(|_| growth == Growth::Scaled)?;
+    let one = cases.iter().find(|case| case.manifest.ranks == Some(1))?;
+    let bytes = one.manifest.peak_memory.filter(|_| growth == Growth::Scaled)?;
     let ranks = last.times.ranks;
     Some(format!(
         "Every rank holds the whole mesh: from {} GB of one rank follow {} GB for each of {ranks}.",

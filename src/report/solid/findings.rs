@@ -1,6 +1,7 @@
 //! What the series of a solid says: greatest stress, first broken bond, modulus, period.
 
 use super::Solid;
+use super::period::period;
 use super::series::Series;
 
 /// Times in ps, stresses in eV/nm^3. `None` where it did not happen or cannot be told.
@@ -14,7 +15,9 @@ pub struct Findings {
     pub broken: Option<f64>,
     /// Slope of the stress over the strain before anything breaks, least squares.
     pub modulus: Option<f64>,
-    /// Of the stress about zero, from its zero crossings, and how many periods were seen.
+    /// Young's modulus of the solid at rest under its load, as a bar.
+    pub modulus_at_rest: Option<f64>,
+    /// Of the stress about zero, and how many periods were seen.
     pub period: Option<(f64, f64)>,
     /// Highest temperature of the atoms, K.
     pub temperature: Option<f64>,
@@ -56,6 +59,7 @@ impl Findings {
             first_break: breaks.map(moment),
             broken: series.broken.last().zip(at_start).map(|(end, start)| end - start),
             modulus: modulus(series, &pull, breaks),
+            modulus_at_rest: modulus_at_rest(solid, series),
             period: period(&series.time, &pull),
             temperature: hottest.max_by(f64::total_cmp),
         }
@@ -80,29 +84,13 @@ fn modulus(series: &Series, pull: &[f64], breaks: Option<usize>) -> Option<f64> 
     (spread > 0.0).then(|| both / spread)
 }
 
-/// Mean distance of crossings of zero in the same sense, and how many of them. Only what is above this share of the greatest
-/// value counts as a swing.
-fn period(time: &[f64], value: &[f64]) -> Option<(f64, f64)> {
-    const SWING: f64 = 0.3;
-    let largest = value.iter().fold(0.0, |most: f64, value| most.max(value.abs()));
-    let mut crossings = Vec::new();
-    let (mut sign, mut last) = (0.0, None);
-    for probe in 1..value.len() {
-        let [before, after] = [value[probe - 1], value[probe]];
-        if before * after <= 0.0 && before != after {
-            let share = before / (before - after);
-            last = Some(time[probe - 1] + share * (time[probe] - time[probe - 1]));
-        }
-        if after.abs() > SWING * largest && after.signum() != sign {
-            if sign != 0.0 {
-                crossings.extend(last);
-            }
-            sign = after.signum();
-        }
-    }
-    let halves = crossings.len().checked_sub(1).filter(|&halves| halves >= 2)? as f64;
-    let whole = crossings[crossings.len() - 1] - crossings[0];
-    Some((2.0 * whole / halves, 0.5 * halves))
+/// Force over cross-section and strain at the start, where the solid has come to rest under its load.
+fn modulus_at_rest(solid: &Solid, series: &Series) -> Option<f64> {
+    let bar = solid.specimen.bar.filter(|_| solid.specimen.is_relaxed)?;
+    let force = series.force.first()?;
+    let along: f64 = force.iter().zip(bar.along).map(|(force, along)| force * along).sum();
+    let modulus = along / bar.cross_section / series.strain.first()?;
+    (modulus.is_finite() && modulus > 0.0).then_some(modulus)
 }
 
 /// How far a curve is from another over the time that both have: root of the mean square over the greatest value.
@@ -171,12 +159,34 @@ mod tests {
     }
 
     #[test]
+    fn a_bar_at_rest_tells_its_modulus_and_with_it_the_period_of_a_thin_one() {
+        use crate::report::solid::specimen::Bar;
+        let mut solid = pulled(|_| 2e-3, |_| 0.0, |_| 0.0);
+        solid.specimen.is_relaxed = true;
+        let bar = Bar {
+            along: [0.0, 0.0, 1.0],
+            length: 50.0,
+            cross_section: 4.0,
+            density: 8.0,
+            young_modulus: 500.0,
+        };
+        solid.specimen.bar = Some(bar);
+        let series = solid.series.as_mut().unwrap();
+        series.force = vec![[9.0, 9.0, 4.0]; series.time.len()];
+        let modulus = Findings::of(&solid).modulus_at_rest.unwrap();
+        assert!((modulus - 500.0).abs() < 1e-9);
+        assert!((bar.period(modulus) - 4.0 * 50.0 * (8.0f64 / 500.0).sqrt()).abs() < 1e-9);
+        solid.specimen.is_relaxed = false;
+        assert_eq!(Findings::of(&solid).modulus_at_rest, None);
+    }
+
+    #[test]
     fn a_struck_solid_tells_its_period_whatever_small_waves_ride_on_it() {
         let swing = |time: f64| (time / 25.0 * std::f64::consts::TAU).sin() + 0.05 * (3.7 * time).sin();
         let solid = pulled(|_| f64::NAN, swing, |_| 0.0);
         let found = Findings::of(&solid);
         let (period, seen) = found.period.unwrap();
-        assert!((period / 25.0 - 1.0).abs() < 0.01 && seen >= 3.0, "{period} {seen}");
+        assert!((period / 25.0 - 1.0).abs() < 1e-3 && seen >= 3.0, "{period} {seen}");
         assert_eq!((found.modulus, found.first_break), (None, None));
     }
 

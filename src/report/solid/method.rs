@@ -58,7 +58,17 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
         ),
         (
             "Period",
-            "From the crossings of zero between swings of more than 0.3 of the greatest average stress.".to_owned(),
+            "Of one sine that is fitted to the average stress in a Hann window from its first crossing of zero on, so that faster \
+             waves do not count; where fewer than two periods were seen, from the crossings of zero between swings of more than \
+             0.3 of the greatest stress."
+                .to_owned(),
+        ),
+        (
+            "Young's modulus at rest",
+            "The solid comes to rest under its traction before it moves: force over cross-section and over the displacement of the \
+             loaded face a length. A thin bar has the period 4 L sqrt(ρ/E); L is from what is held to the loaded face. That of \
+             the crystal is of a bar without surfaces along the load."
+                .to_owned(),
         ),
         (
             "Distance of curves",

@@ -132,6 +132,24 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
             let (period, seen) = case.findings.period?;
             Some(format!("{} over {} periods", significant(period, 4), seen))
         }),
+        row(cases, "period of a thin bar of the crystal (ps)", |case| {
+            let bar = case.solid.specimen.bar.filter(|_| case.findings.period.is_some())?;
+            Some(significant(bar.period(bar.young_modulus), 4))
+        }),
+        row(cases, "Young's modulus at rest (GPa)", |case| {
+            Some(significant(case.findings.modulus_at_rest? * GIGAPASCAL, 4))
+        }),
+        row(cases, "the same, over that of the crystal", |case| {
+            Some(signed_percent(
+                case.findings.modulus_at_rest? / case.solid.specimen.bar?.young_modulus - 1.0,
+            ))
+        }),
+        row(cases, "period of a thin bar with it (ps)", |case| {
+            Some(significant(
+                case.solid.specimen.bar?.period(case.findings.modulus_at_rest?),
+                4,
+            ))
+        }),
         row(cases, "highest temperature of atoms (K)", |case| {
             case.findings.temperature.map(three)
         }),

@@ -26,6 +26,28 @@ pub struct Crystal {
     pub struck: Option<[[f64; 3]; 2]>,
 }
 
+/// A bar of elastic crystal.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bar {
+    /// Of length 1.
+    pub along: [f64; 3],
+    /// nm
+    pub length: f64,
+    /// nm^2
+    pub cross_section: f64,
+    /// eV ps^2/nm^5
+    pub density: f64,
+    /// Young's modulus of the crystal along it, eV/nm^3.
+    pub young_modulus: f64,
+}
+
+impl Bar {
+    /// Of a thin bar with this Young's modulus, held at one end: 4 L sqrt(rho/E), ps.
+    pub fn period(&self, young_modulus: f64) -> f64 {
+        4.0 * self.length * (self.density / young_modulus).sqrt()
+    }
+}
+
 /// A solid as it is laid out; in words where the page shows words.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Specimen {
@@ -38,10 +60,16 @@ pub struct Specimen {
     pub loading: String,
     /// Where the loading pulls, of length 1.
     pub direction: [f64; 3],
+    /// What it is along its load, where that pulls or strikes one face.
+    pub bar: Option<Bar>,
+    /// Whether it comes to rest before it moves.
+    pub is_relaxed: bool,
     /// Distance of nearest neighbours, nm.
     pub spacing: f64,
     pub nodes: u64,
     pub elements: u64,
+    /// Blocks of cells, where it is laid out of them, whatever its resolution.
+    pub blocks: Option<u64>,
     pub atoms: u64,
     /// Elements that are single atoms.
     pub atoms_alone: u64,

@@ -7,12 +7,18 @@ use polars::prelude::Column;
 use super::findings::Moment;
 use super::overview::curve_distance;
 use super::{Analysed, reference};
-use crate::report::ReportError;
+use crate::plan::{Comparison, SCALING};
 use crate::report::table::{Rows, Table};
+use crate::report::tables::comparison;
 use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND, PERCENT};
+use crate::report::{ReportError, scaling};
 
 /// All tables, in the order in which they are shown.
-pub fn all(cases: &[Analysed]) -> Result<Vec<Table>, ReportError> {
+pub fn all(
+    cases: &[Analysed],
+    comparisons: &[Comparison],
+    scaling: Option<&scaling::Findings>,
+) -> Result<Vec<Table>, ReportError> {
     let own = [
         ("summary", summary(cases)),
         ("specimen", specimen(cases)),
@@ -23,9 +29,15 @@ pub fn all(cases: &[Analysed]) -> Result<Vec<Table>, ReportError> {
         ("gauges", gauges(cases)),
         ("cost", cost(cases)),
     ];
-    own.into_iter()
-        .map(|(name, columns)| Table::new(name, columns))
-        .collect()
+    let made = own.into_iter().map(|(name, columns)| Table::new(name, columns));
+    let mut tables = made.collect::<Result<Vec<_>, _>>()?;
+    if let Some(scaling) = scaling {
+        tables.push(Table::new(SCALING, scaling::columns(scaling))?);
+    }
+    if !comparisons.is_empty() {
+        tables.push(Table::new("comparison", comparison::columns(comparisons, &tables))?);
+    }
+    Ok(tables)
 }
 
 fn summary(cases: &[Analysed]) -> Vec<Column> {
@@ -53,6 +65,15 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
         rows.number("first_break_strain", |case| start(case, |at| at.strain)),
         rows.number("broken_bonds", |case| case.findings.broken),
         rows.number("period_ps", |case| case.findings.period.map(|period| period.0)),
+        rows.number("modulus_at_rest_gpa", |case| {
+            case.findings.modulus_at_rest.map(|modulus| modulus * GIGAPASCAL)
+        }),
+        rows.number("modulus_of_crystal_gpa", |case| {
+            case.solid.specimen.bar.map(|bar| bar.young_modulus * GIGAPASCAL)
+        }),
+        rows.number("bar_period_at_rest_ps", |case| {
+            Some(case.solid.specimen.bar?.period(case.findings.modulus_at_rest?))
+        }),
     ]
 }
 

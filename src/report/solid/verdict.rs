@@ -39,6 +39,13 @@ fn answer(case: &Analysed) -> Option<String> {
     if let Some((period, _)) = found.period.filter(|_| found.first_break.is_none()) {
         parts.push(format!("period {} ps", significant(period, 4)));
     }
+    if let Some((modulus, bar)) = found.modulus_at_rest.zip(case.solid.specimen.bar) {
+        parts.push(format!(
+            "at rest a Young's modulus of {} GPa, with which a thin bar has a period of {} ps",
+            significant(modulus * GIGAPASCAL, 4),
+            significant(bar.period(modulus), 4)
+        ));
+    }
     if let Some(start) = found.first_break {
         parts.push(format!("bonds first change at {}", when(start.strain, start.time)));
     }
@@ -81,7 +88,9 @@ fn nearness(cases: &[Analysed]) -> Option<String> {
 const MUCH_MISSING: f64 = 0.01;
 
 fn warning(cases: &[Analysed]) -> Option<String> {
-    let missing = cases.iter().filter(|case| {
+    // Nothing works on what stands still at rest.
+    let moving = cases.iter().filter(|case| case.findings.modulus_at_rest.is_none());
+    let missing = moving.filter(|case| {
         case.result
             .manifest
             .energy_error
@@ -98,7 +107,7 @@ fn warning(cases: &[Analysed]) -> Option<String> {
     })
 }
 
-fn done(cases: &[Analysed]) -> String {
+pub fn done(cases: &[Analysed]) -> String {
     let failed = cases.iter().filter(|case| case.result.failure.is_some()).count();
     let done = cases.iter().filter(|case| case.result.manifest.state == "done").count();
     let all = cases.len();

@@ -9,7 +9,7 @@ use crate::mesh::solid::{Plan, SMALLEST_BLOCK, Solid as Mesh};
 use crate::setup::expected::{Expected, ranks, time_of_run};
 use crate::setup::intervals::between_pictures;
 use crate::setup::{SetupError, memory};
-use crate::study::case::{self, Case, Solid, TimeStep};
+use crate::study::case::{self, Case, MassMatrix, Solid, TimeStep};
 
 /// Bytes of a process that computes hardly anything, and what an atom and a node of an element add, from the peaks of the film of
 /// `quickstart-3d.yaml` in atoms and of the bar of `wave-bar.yaml` in blocks of five cells.
@@ -30,7 +30,7 @@ const SECONDS_A_FACE_SITE: f64 = 1e-9;
 #[derive(Default)]
 pub struct Estimator {
     /// Squared highest frequencies of elements of one size, 1/ps^2.
-    frequencies: Vec<(case::Material, u32, f64)>,
+    frequencies: Vec<(case::Material, u32, MassMatrix, f64)>,
 }
 
 impl Estimator {
@@ -40,7 +40,7 @@ impl Estimator {
         let laid = lay_out(solid, material.spacing)?;
         refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, ranks(case))?;
         let specimen = Specimen::of(case, solid, &laid);
-        let stability_limit = self.stability_limit(solid, &material, &specimen);
+        let stability_limit = self.stability_limit(case.run.mass, solid, &material, &specimen);
         let time_step = match case.run.time_step {
             TimeStep::Auto { fraction } => fraction * stability_limit,
             TimeStep::Given(step) => step,
@@ -87,14 +87,16 @@ impl Estimator {
 
     /// The stability limit of the perfect crystal in this mesh, ps: that of its stiffest size of elements, each looked at in two
     /// blocks of its own.
-    fn stability_limit(&mut self, solid: &Solid, material: &Material, specimen: &Specimen) -> f64 {
+    fn stability_limit(&mut self, mass: MassMatrix, solid: &Solid, material: &Material, specimen: &Specimen) -> f64 {
         let mut most = 0.0;
         for &Kind { size, .. } in &specimen.kinds {
-            let is_known = |known: &&(case::Material, u32, f64)| known.0 == solid.material && known.1 == size;
-            let found = self.frequencies.iter().find(is_known).map(|known| known.2);
-            let squared = found.unwrap_or_else(|| squared_frequency(material, size));
+            let is_known = |known: &&(case::Material, u32, MassMatrix, f64)| {
+                known.0 == solid.material && known.1 == size && known.2 == mass
+            };
+            let found = self.frequencies.iter().find(is_known).map(|known| known.3);
+            let squared = found.unwrap_or_else(|| squared_frequency(material, size, mass));
             if found.is_none() {
-                self.frequencies.push((solid.material.clone(), size, squared));
+                self.frequencies.push((solid.material.clone(), size, mass, squared));
             }
             most = f64::max(most, squared);
         }
@@ -137,7 +139,7 @@ pub fn refuse_what_does_not_fit(sites: u64, element: u32, ranks: u32) -> Result<
     }
 }
 
-fn squared_frequency(material: &Material, size: u32) -> f64 {
+fn squared_frequency(material: &Material, size: u32, mass: MassMatrix) -> f64 {
     let cells = size.max(SMALLEST_BLOCK as u32) as i32;
     let plan = Plan {
         sites: Sites {
@@ -151,5 +153,6 @@ fn squared_frequency(material: &Material, size: u32) -> f64 {
     };
     let mesh = Mesh::new(&plan);
     let position = mesh.node_positions();
-    Forces::new(mesh, *material).squared_frequency_bound(&position)
+    let forces = Forces::new(mesh, *material).with_consistent_mass(mass.consistent_share());
+    forces.squared_frequency_bound(&position)
 }

@@ -1,6 +1,6 @@
 //! What acts on a solid, and what is read of it.
 
-use super::plan::Laid;
+use super::plan::{Laid, dot};
 use crate::loading::{Action, Ball, Carried, Course, Hold, Push, Ramp};
 use crate::material::Material;
 use crate::mesh::solid::Solid as Mesh;
@@ -208,6 +208,12 @@ impl Setup<'_> {
         })
     }
 
+    /// A direction the way that leads from the low to the high face of an axis.
+    fn towards_high(&self, direction: [f64; 3], axis: Axis) -> [f64; 3] {
+        let sign = dot(direction, self.laid.normal(axis)).signum();
+        direction.map(|part| part * sign)
+    }
+
     /// The faces of the axis that the loading acts along.
     fn extension(&self) -> Extension {
         let shares = |is_wanted: &dyn Fn([i32; 3]) -> bool| Carried::of_solid(self.mesh, is_wanted).1.shares();
@@ -234,6 +240,7 @@ impl Setup<'_> {
                 rate: Some(speed / length),
             };
         }
+        let bar = self.laid.bar(self.solid, self.material);
         let axis = match self.solid.loading {
             Loading::OpposedTractions { axis, .. } => axis,
             Loading::Velocity { face, .. }
@@ -243,8 +250,8 @@ impl Setup<'_> {
         };
         Extension {
             ends: [low(axis), high(axis)].map(|face| shares(&|site| self.laid.is_on(site, face))),
-            along: self.laid.normal(axis),
-            length: self.laid.thickness(axis),
+            along: bar.map_or(self.laid.normal(axis), |bar| self.towards_high(bar.along, axis)),
+            length: bar.map_or(self.laid.thickness(axis), |bar| bar.length),
             rate: None,
         }
     }
@@ -253,7 +260,6 @@ impl Setup<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::setup::solid::plan::dot;
     use crate::setup::solid::{lay_out, material};
     use crate::study::case::Case;
     use crate::{plan, study};

@@ -249,7 +249,7 @@ impl Laid {
 }
 
 /// A face moves along itself where its motion has no more than this share through it.
-const ALONG_ITSELF: f64 = 0.5;
+pub const ALONG_ITSELF: f64 = 0.5;
 
 pub fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]

@@ -127,8 +127,12 @@ impl Check<'_> {
             self.refuse(Some(place), message, "stop at a strain or a time");
         }
         if let Some(run) = case.run.right() {
-            let message = "a solid moves from the perfect lattice";
-            self.refuse(run.relax.place(), message, "leave `relax` out");
+            let strain = run.relax.right().and_then(|relax| relax.strain.right());
+            if strain.is_some_and(|strain| strain.value != 0.0) {
+                let message = "a solid comes to rest under what its loading is at the start, without strain";
+                let help = "write `relax: {strain: 0 %}`; under a traction at once it comes to rest stretched";
+                self.refuse(run.relax.place(), message, help);
+            }
         }
     }
 }

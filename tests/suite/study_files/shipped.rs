@@ -132,31 +132,38 @@ fn ranks_of_the_fixed_size_share_its_elements_and_those_of_the_scaled_size_have_
     };
     assert_eq!(elements("scaling-fixed.yaml"), [128_160, 128_160]);
     assert_eq!(elements("scaling-scaled.yaml"), [64_080, 128_160]);
+    // [Deng2011] Table 4-1: 5,120 blocks, and 640 a processor; a block is three elements.
+    assert_eq!(elements("scaling-fixed-3d.yaml"), [3 * 5_120; 2]);
+    assert_eq!(elements("scaling-scaled-3d.yaml"), [3 * 640, 3 * 1_280]);
 }
 
 #[test]
 fn every_rank_of_the_scaled_size_has_the_work_of_one_and_two_neighbours_at_most() {
-    let plan = plan(&study::read("scaling-scaled.yaml").unwrap()).unwrap();
-    let counts = [1, 2, 3, 512];
-    let case = &plan.cases[0].case;
-    let found = setup::burdens(case.slab().unwrap(), &case.run.until, 1, study::Growth::Scaled, &counts).unwrap();
-    assert_eq!(found.iter().map(|burden| burden.ranks).collect::<Vec<_>>(), counts);
-    let neighbours: Vec<u32> = found.iter().map(|burden| burden.messages).collect();
-    assert_eq!(neighbours, [0, 1, 2, 2]);
-    for burden in &found {
-        // A rank is never farther from its share than a group of triangles, of which it has 160.
-        assert!(
-            (burden.work * f64::from(burden.ranks) - 1.0).abs() < 1.0 / 160.0,
-            "{burden:?}"
-        );
+    // A rank is never farther from its share than a group of elements, of which it has 160, or in the solid 480.
+    for (name, groups) in [("scaling-scaled.yaml", 160.0), ("scaling-scaled-3d.yaml", 480.0)] {
+        let plan = plan(&study::read(name).unwrap()).unwrap();
+        let counts = [1, 2, 3, 512];
+        let found = setup::burdens(&plan.cases[0].case, 1, study::Growth::Scaled, &counts).unwrap();
+        assert_eq!(found.iter().map(|burden| burden.ranks).collect::<Vec<_>>(), counts);
+        let neighbours: Vec<u32> = found.iter().map(|burden| burden.messages).collect();
+        assert_eq!(neighbours, [0, 1, 2, 2], "{name}");
+        for burden in &found {
+            let share = burden.work * f64::from(burden.ranks);
+            assert!((share - 1.0).abs() < 1.0 / groups, "{name}: {burden:?}");
+        }
+        assert_eq!(found[3].bytes, found[2].bytes, "{name}");
     }
-    assert_eq!(found[3].bytes, found[2].bytes);
 }
 
 #[test]
 fn what_the_scaling_studies_compare_with_is_tables_4_2_and_4_3() {
     // [Deng2011] Table 4-2 and [Deng2011] Table 4-3: the first step of their last rows.
-    for (name, solution) in [("scaling-fixed.yaml", 0.110), ("scaling-scaled.yaml", 1.076)] {
+    for (name, solution) in [
+        ("scaling-fixed.yaml", 0.110),
+        ("scaling-scaled.yaml", 1.076),
+        ("scaling-fixed-3d.yaml", 0.110),
+        ("scaling-scaled-3d.yaml", 1.076),
+    ] {
         let plan = plan(&study::read(name).unwrap()).unwrap();
         let values = &plan.comparisons[0].values;
         assert_eq!(values.len(), 5 * 8, "{name}");

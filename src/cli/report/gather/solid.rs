@@ -5,25 +5,38 @@ use std::path::Path;
 use crate::analysis::columns::{Columns, SolidSetting};
 use crate::cli::specimen::solid::{kinds, notch};
 use crate::record::{self, FIELDS_FILE, RecordError, SERIES_FILE};
+use crate::report::solid::specimen::Bar;
 use crate::report::solid::{Crystal, Gauge, Series, Specimen};
 use crate::report::{CaseResult, Film};
-use crate::setup::solid::{LOADING, Specimen as Laid, gauge_name, lay_out, material};
+use crate::setup::solid::{LOADING, Specimen as Laid, bar, gauge_name, lay_out, material};
 use crate::study::case::Solid;
 use crate::study::case::solid::Loading;
 
 /// Tells of the specimen of a solid.
-pub fn tell(result: &mut CaseResult, laid: &Laid) {
-    let solid = result.solid.get_or_insert_default();
-    solid.specimen = Specimen {
+pub fn tell(result: &mut CaseResult, solid: &Solid, laid: &Laid) {
+    let told = result.solid.get_or_insert_default();
+    told.specimen = Specimen {
         edges: laid.edges.iter().map(|(name, length)| (*name, length.actual)).collect(),
         kinds: kinds(laid),
         notch: notch(laid),
         held: laid.held.clone().unwrap_or_else(|| "nothing".to_owned()),
         loading: laid.loading.clone(),
         direction: laid.direction,
+        bar: bar(solid).map(|bar| Bar {
+            along: bar.along,
+            length: bar.length,
+            cross_section: bar.cross_section,
+            density: bar.density,
+            young_modulus: bar.young_modulus,
+        }),
+        is_relaxed: result.choices.iter().any(|(key, _)| key.starts_with("run.relax")),
         spacing: laid.spacing,
         nodes: laid.nodes,
         elements: laid.elements,
+        blocks: laid.blocks.map(|blocks| {
+            let all: u64 = blocks.into_iter().map(u64::from).product();
+            all - laid.slot.unwrap_or(0)
+        }),
         atoms: laid.sites,
         atoms_alone: laid
             .kinds
