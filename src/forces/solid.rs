@@ -17,6 +17,7 @@ mod faces;
 mod frequency;
 mod grid;
 mod inside;
+mod listed;
 mod measure;
 mod pairs;
 mod points;

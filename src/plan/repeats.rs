@@ -45,7 +45,7 @@ pub fn repeated(drafts: Vec<Draft>, given: &Given<Repeats>, findings: &Findings)
 /// What a repeat changes in its case. Where nobody gives an amplitude, that is told with the case.
 fn noise(repeats: &Repeats, seed: u32, place: Place) -> Given<CaseFile> {
     let noise = Noise {
-        amplitude: repeats.amplitude.clone(),
+        amplitude: repeats.amplitude,
         seed: Given::Right(seed, place),
     };
     let run = Run {

@@ -39,7 +39,7 @@ pub fn read<K: Keep, const D: usize>(path: &Path, case_id: &str) -> Result<Check
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 8,
+        format: 9,
         case_id,
     }
 }

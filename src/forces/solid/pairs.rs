@@ -5,18 +5,17 @@
 
 use std::ops::Range;
 
-use pulp::{Arch, Simd, WithSimd};
+use pulp::Arch;
 use rayon::prelude::*;
 
 use super::Planes;
 use super::drift::{Drift, Lengths, Moments};
 use super::grid::Grid;
-use super::inside::within;
-use super::measure::{Held, PARTS};
+use super::listed::{Side, Sum};
+use super::measure::PARTS;
 use super::points::Points;
-use super::vector::Vector;
 use crate::forces::close::{Close, Crowd};
-use crate::lanes::{Lanes, MOST, Mask};
+use crate::lanes::MOST;
 use crate::potential::{CutPotential, PairShape};
 
 /// Where the point is that stands for no partner: too far away for anything.
@@ -24,9 +23,6 @@ const FAR_AWAY: f64 = 1e100;
 
 /// Groups of points in one parallel task.
 const CHUNK: usize = 64;
-
-/// As many numbers as there may be lanes.
-type Side = [f64; MOST];
 
 /// Who is near whom.
 #[derive(Clone, Debug, Default)]
@@ -381,94 +377,4 @@ pub fn ranges(numbers: impl Iterator<Item = usize>) -> Vec<Range<usize>> {
 #[inline(always)]
 fn at(planes: &Planes, node: usize) -> [f64; 3] {
     [planes[0][node], planes[1][node], planes[2][node]]
-}
-
-/// The sums of some groups of points.
-struct Sum<'a, S, const MEASURED: bool> {
-    law: CutPotential<S>,
-    /// Shorter bonds are close, nm^2.
-    close: f64,
-    /// Number of the first group.
-    first: usize,
-    lists: &'a [Range<u32>],
-    partners: &'a [u32],
-    places: &'a [[f64; 4]],
-    force: &'a mut [[Side; 3]],
-    held: &'a mut [[Side; PARTS]],
-}
-
-impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
-    /// Groups with close bonds.
-    type Output = Vec<usize>;
-
-    #[inline(always)]
-    fn with_simd<L: Simd>(self, simd: L) -> Vec<usize> {
-        let Self {
-            law,
-            close,
-            first,
-            lists,
-            partners,
-            places,
-            force,
-            held,
-        } = self;
-        let lanes = Lanes::<L>::COUNT;
-        let mut crowded = Vec::new();
-        for (number, force) in force.iter_mut().enumerate() {
-            let group = first + number;
-            let list = &lists[group];
-            if list.is_empty() {
-                continue;
-            }
-            let list = &partners[list.start as usize..list.end as usize];
-            let mut is_crowded = Mask::all(simd, false);
-            let mut lane = 0;
-            while lane < MOST {
-                let here = gather(simd, places, |k| group * MOST + lane + k);
-                let mut sum = Vector::zero(simd);
-                let mut of_pairs = Held::<L, MEASURED>::new(simd);
-                for partners in list.chunks_exact(MOST) {
-                    let bond = gather(simd, places, |k| partners[lane + k] as usize) - here;
-                    let squared = bond.squared();
-                    is_crowded = is_crowded.or(squared.is_below(close));
-                    if MEASURED {
-                        let values = law.values(simd, squared);
-                        of_pairs.add(values, bond, within(simd, &law, squared), Lanes::all(simd, 1.0));
-                        sum = bond.times_add(values[1], sum);
-                    } else {
-                        sum = bond.times_add(law.slopes(simd, squared), sum);
-                    }
-                }
-                for (plane, part) in force.iter_mut().zip([sum.x, sum.y, sum.z]) {
-                    part.store(plane, lane, lanes);
-                }
-                if MEASURED {
-                    let mut planes = held[number].each_mut().map(|plane| &mut plane[..]);
-                    of_pairs.store(&mut planes, lane, lanes);
-                }
-                lane += lanes;
-            }
-            if is_crowded.any() {
-                crowded.push(group);
-            }
-        }
-        crowded
-    }
-}
-
-#[inline(always)]
-fn gather<L: Simd>(simd: L, places: &[[f64; 4]], place: impl Fn(usize) -> usize) -> Vector<L> {
-    let mut planes = [[0.0; MOST]; 3];
-    for k in 0..Lanes::<L>::COUNT {
-        let [x, y, z, _] = places[place(k)];
-        planes[0][k] = x;
-        planes[1][k] = y;
-        planes[2][k] = z;
-    }
-    Vector {
-        x: Lanes::load(simd, &planes[0], 0),
-        y: Lanes::load(simd, &planes[1], 0),
-        z: Lanes::load(simd, &planes[2], 0),
-    }
 }

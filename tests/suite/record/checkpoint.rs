@@ -100,12 +100,12 @@ fn each_wrong_checkpoint_has_its_own_error() {
 
     // A file of the next format, sealed as it should be: only its first line is read.
     let mut bytes = fs::read(&path).unwrap();
-    assert!(bytes.starts_with(b"cgaft checkpoint 8\n"));
+    assert!(bytes.starts_with(b"cgaft checkpoint 9\n"));
     bytes[17] = b'0';
     fs::write(&path, &bytes).unwrap();
     let error = read(&path, "abc").unwrap_err();
     assert!(
-        matches!(&error, RecordError::OtherFormat { found, readable: 8, .. } if found == "0"),
+        matches!(&error, RecordError::OtherFormat { found, readable: 9, .. } if found == "0"),
         "{error}"
     );
 
