@@ -105,7 +105,7 @@ check: lint test
 lint: setup
 	$(CARGO) fmt --check
 	$(CARGO) clippy --release --locked --all-targets -- -D warnings
-	$(CARGO) clippy --release --locked --test verify -- -D warnings
+	$(CARGO) clippy --release --locked --test verify --test stability -- -D warnings
 	@! command -v mpicc >/dev/null || $(CARGO) clippy --release --locked --bin cgaft-solve --features mpi -- -D warnings
 	.ci/shared-crates
 

@@ -53,6 +53,7 @@ pub fn solver(mesh: Mesh, rate: f64, fraction: f64, until: Until, probe_every: f
         consistent_mass: 0.0,
         relax: false,
         noise: None,
+        refine: None,
         until,
         probe_every,
         snapshot_every: None,
