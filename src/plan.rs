@@ -3,6 +3,7 @@
 mod compared;
 mod comparison;
 mod difference;
+mod draft;
 mod duplicates;
 mod expansion;
 mod figures;

@@ -5,7 +5,7 @@
 //! meant for all cases with these values. Times of another program on several processors have a column `ranks` instead.
 
 use super::compared::{CASE, COMPARED, Compared, RANKS};
-use super::expansion::Draft;
+use super::draft::Draft;
 use crate::study::{Finding, Findings, Place, Study, alternatives, suggestion};
 use serde::Serialize;
 

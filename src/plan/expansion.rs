@@ -1,22 +1,8 @@
 //! Base, cases and sweep multiplied out.
 
-use super::swept::Swept;
+use super::draft::Draft;
 use super::{name, repeats, sweep};
 use crate::study::{CaseFile, Finding, Findings, Given, Overlay, Place, StudyFile};
-
-/// A case before its choices are checked.
-#[derive(Clone)]
-pub struct Draft {
-    pub name: String,
-    /// The name that the sweep started from.
-    pub origin: String,
-    /// Where its name comes from.
-    pub place: Place,
-    pub values: Given<CaseFile>,
-    pub swept: Vec<Swept>,
-    /// The name of what it repeats.
-    pub repeat_of: Option<String>,
-}
 
 /// Name of the only case of a study that names none.
 const ONLY: &str = "base";

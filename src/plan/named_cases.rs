@@ -1,6 +1,6 @@
 //! Lists in `report` that name cases of the study.
 
-use super::expansion::Draft;
+use super::draft::Draft;
 use crate::study::{Finding, Findings, Given, Place, suggestion};
 
 /// The cases that are named: of a sweep and of repeats all, by their name. Refuses what no case is called.

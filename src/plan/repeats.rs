@@ -1,6 +1,6 @@
 //! `repeats`: every case several times over, each with noise of its own.
 
-use super::expansion::Draft;
+use super::draft::Draft;
 use crate::study::{self, CaseFile, Finding, Findings, Given, Noise, Overlay, Place, Repeats, Run};
 
 /// More repeats of one case than this are a slip.

@@ -1,6 +1,6 @@
 //! `report.beside` and `report.side-by-side`: what the report sets side by side.
 
-use super::expansion::Draft;
+use super::draft::Draft;
 use super::name;
 use super::named_cases::named_cases;
 use crate::study::{Finding, Findings, Given, Name, SideBySideFile, Study};

@@ -1,6 +1,6 @@
 //! `report.stages`: cases that the report shows in pictures at strains of interest, the first of them in motion.
 
-use super::expansion::Draft;
+use super::draft::Draft;
 use super::named_cases::named_cases;
 use crate::study::{Finding, Findings, Given, Study};
 use serde::Serialize;

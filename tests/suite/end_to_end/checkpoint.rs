@@ -35,7 +35,7 @@ fn solve_with(change: impl FnOnce(&mut Checkpoint)) -> Changed {
 fn a_checkpoint_with_too_few_numbers_is_told_and_the_case_starts_afresh() {
     let Changed { place, into, said } = solve_with(|state| state.velocity[1].truncate(3));
     let said = said.succeeded();
-    for told in ["another number of nodes", "starting afresh"] {
+    for told in ["unequal numbers of coordinates", "starting afresh"] {
         assert!(said.stderr.contains(told), "no `{told}` in {}", said.stderr);
     }
     assert_same_results(&into, &place.case("coarse"));

@@ -181,8 +181,8 @@ fn the_page_is_whole(results: &Path) {
     }
     assert_eq!(
         page.matches("src=\"data:image/png;base64,").count(),
-        6,
-        "a slab and a path of each case"
+        8,
+        "a slab and a path of each case, and two meshes of the refined one"
     );
     assert!(page.matches("<svg").count() >= 3);
 }
