@@ -147,7 +147,8 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     /// otherwise.
     fn will_be_observed(&self) -> bool {
         let is_due = |schedule: &Schedule| schedule.is_due(self.clock.time, self.clock.time_step);
-        is_due(&self.probes) || is_due(&self.snapshots) || is_due(&self.looks) || self.ending().is_some()
+        let is_looked_at = self.body.looks_every().is_some() && is_due(&self.looks);
+        is_due(&self.probes) || is_due(&self.snapshots) || is_looked_at || self.ending().is_some()
     }
 
     /// Whether nobody stops the run, cuts the specimen anew or changes the time step before the next step.
