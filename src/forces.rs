@@ -48,7 +48,7 @@ use crate::mesh::Mesh;
 use crate::mesh::interfaces::Interfaces;
 use bulk::BulkBonds;
 use certified::Certificate;
-use close::Close;
+use close::CloseBonds;
 use contact::Contacts;
 use contact::lattice::AtomLattice;
 use interface::{IntactLimit, State};
@@ -97,11 +97,7 @@ pub struct Forces {
     contacts: Contacts,
     tiles: Vec<Tile>,
     limit: IntactLimit,
-    close: Close,
-    /// How much close bonds stiffen the sites of all ranks at the positions of the last forces.
-    close_level: u32,
-    /// The shortest close bond of this rank so far, nm; infinite before there is one.
-    shortest: f64,
+    close_bonds: CloseBonds,
     /// Interfaces that are not tight, ascending.
     loosened: Vec<u32>,
     /// Interfaces of my triangles that are tested in every step.
@@ -187,9 +183,7 @@ impl Forces {
             atoms,
             contacts: Contacts::default(),
             tiles,
-            close: Close::new(&material),
-            close_level: 0,
-            shortest: f64::INFINITY,
+            close_bonds: CloseBonds::new(&material),
             limit,
             loosened: Vec::new(),
             watched: Vec::new(),
@@ -314,22 +308,13 @@ impl Forces {
         self.certain_is_current = false;
     }
 
-    /// What bonds closer than in a regular lattice may have added to the squared highest frequency when forces were last
-    /// computed, 1/ps^2, the same on all ranks; with lumped masses.
-    pub fn squared_frequency_of_close_bonds(&self) -> f64 {
-        self.close.squared_frequency(self.close_level, self.material.site_mass)
+    /// What bonds closer than in a regular lattice do.
+    pub fn close_bonds(&self) -> &CloseBonds {
+        &self.close_bonds
     }
 
-    /// The length of the shortest close bond that any rank has seen so far, nm; infinite before there is one. All ranks must ask
-    /// together.
-    pub fn closest_approach(&self) -> f64 {
-        // The least of all ranks to the bit.
-        -self.domain.ranks().largest(-self.shortest)
-    }
-
-    /// Goes on from what was seen before, nm.
-    pub fn restore_closest_approach(&mut self, length: f64) {
-        self.shortest = length;
+    pub fn close_bonds_mut(&mut self) -> &mut CloseBonds {
+        &mut self.close_bonds
     }
 
     /// Whether an interface is one of my triangles'.

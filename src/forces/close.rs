@@ -6,6 +6,7 @@
 //! of a node in the sites of its element add up to no more than its lumped mass.
 
 use super::regular::Regular;
+use crate::domain::Ranks;
 use crate::material::Material;
 use crate::potential::{CutPotential, PairShape, with_law};
 
@@ -79,10 +80,51 @@ impl Close {
         };
         2.0 * (along / self.stiffness - 1.0).max(0.0)
     }
+}
 
-    /// The largest excess of a level over the mass of a site, 1/ps^2.
-    pub fn squared_frequency(&self, level: u32, site_mass: f64) -> f64 {
-        most(level) * self.stiffness / site_mass
+/// The close bonds of a specimen as a rank knows them.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CloseBonds {
+    pub close: Close,
+    /// eV ps^2/nm^2
+    site_mass: f64,
+    /// How much they stiffen the sites of all ranks at the positions of the last forces.
+    level: u32,
+    /// The shortest of this rank so far, nm; infinite before there is one.
+    shortest: f64,
+}
+
+impl CloseBonds {
+    pub fn new(material: &Material) -> Self {
+        Self {
+            close: Close::new(material),
+            site_mass: material.site_mass,
+            level: 0,
+            shortest: f64::INFINITY,
+        }
+    }
+
+    /// Takes note of what this rank has found in the last forces, and of what all have.
+    pub fn note(&mut self, crowd: Crowd, level_of_all: u32) {
+        self.shortest = self.shortest.min(crowd.shortest.sqrt());
+        self.level = level_of_all;
+    }
+
+    /// What they may have added to the squared highest frequency when forces were last computed, 1/ps^2, the same on all ranks;
+    /// with lumped masses.
+    pub fn squared_frequency(&self) -> f64 {
+        most(self.level) * self.close.stiffness / self.site_mass
+    }
+
+    /// The length of the shortest that any rank has seen so far, nm; infinite before there is one. All ranks must ask together.
+    pub fn closest_approach(&self, ranks: Ranks) -> f64 {
+        // The least of all ranks to the bit.
+        -ranks.largest(-self.shortest)
+    }
+
+    /// Goes on from what was seen before, nm.
+    pub fn restore_closest_approach(&mut self, length: f64) {
+        self.shortest = length;
     }
 }
 

@@ -103,7 +103,7 @@ impl Forces {
         let before = std::mem::replace(self, next);
         self.domain.hear_after(&before.domain);
         self.first_cut = before.first_cut;
-        self.shortest = before.shortest;
+        self.close_bonds = before.close_bonds;
         (self.searches, self.search_time) = (before.searches, before.search_time);
         (self.exchanges, self.exchange_time) = (before.exchanges, before.exchange_time);
         self.spent = before.spent;

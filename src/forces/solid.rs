@@ -40,7 +40,7 @@ use std::time::Duration;
 use pulp::Arch;
 
 use super::Summation;
-use super::close::Close;
+use super::close::CloseBonds;
 use crate::domain::{Domain, Halo, Ranks};
 use crate::material::Material;
 use crate::mesh::solid::Solid;
@@ -93,11 +93,7 @@ pub struct Forces {
     consistent_mass: f64,
     /// The squared highest frequency of the crystal at rest, 1/ps^2, once it has been asked for.
     frequency_at_rest: OnceLock<f64>,
-    close: Close,
-    /// How much close bonds stiffen the points of all ranks at the positions of the last forces.
-    close_level: u32,
-    /// The shortest close bond of this rank so far, nm; infinite before there is one.
-    shortest: f64,
+    close_bonds: CloseBonds,
     arch: Arch,
     searches: u64,
     search_time: Duration,
@@ -139,9 +135,7 @@ impl Forces {
             tiles: sweep::tiles(&mesh, &interfaces, domain.grouped(), rayon::current_num_threads()),
             halo: Halo::ask(&domain, &mesh, &bordering),
             farthest: FARTHEST * largest,
-            close: Close::new(&material),
-            close_level: 0,
-            shortest: f64::INFINITY,
+            close_bonds: CloseBonds::new(&material),
             mesh,
             domain,
             bordering,
@@ -201,22 +195,13 @@ impl Forces {
         self.intact.len()
     }
 
-    /// What bonds closer than in a regular lattice may have added to the squared highest frequency when forces were last
-    /// computed, 1/ps^2, the same on all ranks.
-    pub fn squared_frequency_of_close_bonds(&self) -> f64 {
-        self.close.squared_frequency(self.close_level, self.material.site_mass)
+    /// What bonds closer than in a regular lattice do.
+    pub fn close_bonds(&self) -> &CloseBonds {
+        &self.close_bonds
     }
 
-    /// The length of the shortest close bond that any rank has seen so far, nm; infinite before there is one. All ranks must ask
-    /// together.
-    pub fn closest_approach(&self) -> f64 {
-        // The least of all ranks to the bit.
-        -self.domain.ranks().largest(-self.shortest)
-    }
-
-    /// Goes on from what was seen before, nm.
-    pub fn restore_closest_approach(&mut self, length: f64) {
-        self.shortest = length;
+    pub fn close_bonds_mut(&mut self) -> &mut CloseBonds {
+        &mut self.close_bonds
     }
 
     /// The parts on both sides of an interface.

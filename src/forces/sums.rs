@@ -78,7 +78,7 @@ impl Forces {
                     law,
                     regular: self.limit.regular,
                     untouched: self.limit.untouched,
-                    close: self.close,
+                    close: self.close_bonds.close,
                     mesh: &self.mesh,
                     domain: &self.domain,
                 };
@@ -107,11 +107,10 @@ impl Forces {
                 disturbed.into_iter().for_each(|atom| self.atoms.disturb(atom as usize));
                 self.search(position)?;
             } else {
-                self.shortest = self.shortest.min(crowd.shortest.sqrt());
+                self.close_bonds.note(crowd, self.domain.hears_level());
                 break;
             }
         }
-        self.close_level = self.domain.hears_level();
         self.contacts.add_to(&self.mesh, &self.domain, force, measure);
         irregular.extend(changed_beside);
         Ok(irregular)

@@ -219,15 +219,15 @@ impl Body<3> for Solid {
     }
 
     fn stiffened(&self, state: &State<3>) -> f64 {
-        self.forces.squared_frequency_of_close_bonds() / state.least_share_of_mass()
+        self.forces.close_bonds().squared_frequency() / state.least_share_of_mass()
     }
 
     fn closest_approach(&self) -> f64 {
-        self.forces.closest_approach()
+        self.forces.close_bonds().closest_approach(self.forces.domain().ranks())
     }
 
     fn restore_closest_approach(&mut self, length: f64) {
-        self.forces.restore_closest_approach(length);
+        self.forces.close_bonds_mut().restore_closest_approach(length);
     }
 
     /// Under its loading at the time 0.

@@ -182,3 +182,64 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use std::time::Duration;
+
+    use super::*;
+    use crate::forces::Summation;
+    use crate::loading::{Grip, Stretching};
+    use crate::material::Material;
+    use crate::mesh::sites::Layout;
+    use crate::mesh::{Mesh, Plan};
+    use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
+    use crate::solver::{Settings, TimeStep, Until};
+
+    #[test]
+    fn a_step_is_looked_at_where_something_is_due_and_nowhere_else() {
+        let shape = LennardJones {
+            epsilon: 1.0,
+            sigma: 1.0,
+        };
+        let law = CutPotential::new(shape, 1.5, AtCutoff::Truncated);
+        let material = Material::new(Interaction::LennardJones(law), 1.0).expect("the potential binds");
+        let mesh = Mesh::new(&Plan {
+            layout: Layout {
+                block: 5,
+                rows: 6,
+                triangles: 5,
+            },
+            element: 5,
+            regions: vec![],
+            crack: None,
+            grip_rows: 5,
+            spacing: material.spacing,
+        });
+        let settings = Settings {
+            time_step: TimeStep::Given(0.01),
+            summation: Summation::Exact,
+            consistent_mass: 0.0,
+            refine: None,
+            relax: false,
+            noise: None,
+            until: Until {
+                strain: Some(1.0),
+                ..Until::default()
+            },
+            probe_every: 0.1,
+            snapshot_every: None,
+            checkpoint_every: Duration::from_secs(3600),
+            thickness: 1.0,
+        };
+        let loading = Stretching::new(&mesh, 1e-3, Grip::Clamped, true);
+        let mut solver: Solver = Solver::new(mesh, material, loading, settings).expect("the run starts");
+        solver.probes.take(0.0, 0.01, false);
+        solver.snapshots.take(0.0, 0.01, false);
+        for step in 1..=20 {
+            solver.step_on(Looks::WhenDue).expect("nothing flies away");
+            assert_eq!(solver.measured, step % 10 == 0, "step {step}");
+            solver.probes.take(solver.clock.time, solver.clock.time_step, false);
+        }
+    }
+}

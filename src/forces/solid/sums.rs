@@ -58,7 +58,7 @@ impl Forces {
             } else if !is_current {
                 self.domain.call(Call::ListOutdated);
             } else if let Some(pairs) = &mut self.pairs {
-                crowd = pairs.sum::<S, MEASURED>(self.arch, law, self.close);
+                crowd = pairs.sum::<S, MEASURED>(self.arch, law, self.close_bonds.close);
                 self.domain.call_level(close::level(crowd.excess));
             }
             self.agree();
@@ -71,11 +71,10 @@ impl Forces {
                     self.search(position)?;
                 }
             } else {
-                self.shortest = self.shortest.min(crowd.shortest.sqrt());
+                self.close_bonds.note(crowd, self.domain.hears_level());
                 break;
             }
         }
-        self.close_level = self.domain.hears_level();
         self.add_pairs::<MEASURED>(force, measure);
         Ok(())
     }
