@@ -225,9 +225,12 @@ fn imbalance(cases: &[Analysed]) -> Chart {
         "energy-imbalance",
         "Energy that is missing",
         "Kinetic and potential energy less the work of the loading and what pairs released at the cutoff, over the greatest \
-         work: the error of the computation.",
+         work: the error of the computation. Nothing works on what stands still at rest.",
         "missing over greatest work (%)",
-        curves(cases, |_, series| {
+        curves(cases, |case, series| {
+            if case.findings.modulus_at_rest.is_some() {
+                return Vec::new();
+            }
             let most = series.work.iter().fold(0.0, |most: f64, work| most.max(work.abs()));
             let start =
                 series.kinetic.first().copied().unwrap_or(0.0) + series.potential.first().copied().unwrap_or(0.0);

@@ -21,6 +21,8 @@ fn a_run_goes_on_for_the_asked_time_after_the_first_branch() {
     let plan = plan(&text).expect("it is right");
     let named = plan.cases.iter().find(|planned| planned.name == "E");
     let mut case = named.expect("model E is there").case.clone();
+    // Far beyond the strain at which it branches.
+    case.run.until.strain = Some(0.06);
     case.run.until.after_branch = Some(AFTER);
     let folder = tempfile::tempdir().expect("there is room");
     let (stop, mut quiet) = (AtomicBool::new(false), |_: &str| ());
