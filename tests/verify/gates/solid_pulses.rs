@@ -85,10 +85,16 @@ impl Bar {
         }
         let mut forces = Forces::new(mesh.clone(), material);
         let nodes = state.every_node();
+        // Free ends would come to rest where they are not, and the wave of that is larger than the pulse.
+        let held = material.interaction.cutoff() + mesh.spacing;
+        let is_free = |place: f64| place > held && place < LENGTH * mesh.spacing - held;
         let mut compute = |state: &mut State<3>| {
             for axis in 0..3 {
                 for (node, &leader) in self.leader.iter().enumerate() {
-                    let shift = state.position[axis][leader] - reference[axis][leader];
+                    let shift = match is_free(reference[0][node]) {
+                        true => state.position[axis][leader] - reference[axis][leader],
+                        false => 0.0,
+                    };
                     state.position[axis][node] = reference[axis][node] + shift;
                 }
             }

@@ -32,7 +32,7 @@ base:
 cases:
   pulled: {loading: {velocity: {face: a1-high, speed: 5 m/s, layers: 2, ramp: initial-velocity}}}
   loaded: {loading: {traction: {face: a1-high, stress: [300 MPa, 100 MPa, -200 MPa], rise-time: 2 ps}}}
-  torn: {loading: {opposed-tractions: {axis: a1, thickness: a3, share: 50 %, stress: [0 MPa, 0 MPa, 300 MPa]}}}
+  torn: {loading: {opposed-tractions: {axis: a2, thickness: a3, share: 50 %, stress: [0 MPa, 0 MPa, 300 MPa]}}}
   struck: {loading: {pulse: {face: a1-high, shape: half-sine, duration: 3 ps, pressure: 500 MPa}}}
   rung: {loading: {pulse: {face: a1-high, shape: gaussian, duration: 4 ps, pressure: 500 MPa}}}
   hit: {loading: {impact: {face: a3-high, radius: 1 nm, speed: 20 m/s, gap: 0.01 nm}}}
