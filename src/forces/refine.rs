@@ -109,3 +109,70 @@ impl Forces {
         self.spent = before.spent;
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::material::Material;
+    use crate::mesh::Plan;
+    use crate::mesh::sites::Layout;
+    use crate::potential::{AtCutoff, CutPotential, Interaction, LennardJones};
+
+    /// The strain of the elements differs by so little that only the even part takes from what bonds have left.
+    const SMALL: f64 = 1e-8;
+
+    /// Six rows of triangles, the lowest and the highest held, stretched upwards by this and by a part that grows with height.
+    fn bent(even: f64) -> (Forces, Planes) {
+        let shape = LennardJones {
+            epsilon: 1.0,
+            sigma: 1.0,
+        };
+        let law = CutPotential::new(shape, 1.5, AtCutoff::Truncated);
+        let material = Material::new(Interaction::LennardJones(law), 1.0).expect("the potential binds");
+        let mesh = Mesh::new(&Plan {
+            layout: Layout {
+                block: 10,
+                rows: 6,
+                triangles: 9,
+            },
+            element: 10,
+            regions: vec![],
+            crack: None,
+            grip_rows: 10,
+            spacing: material.spacing,
+        });
+        let mut position = mesh.node_positions();
+        for y in &mut position[1] {
+            *y += even * *y + 0.5 * SMALL * *y * *y;
+        }
+        (Forces::new(mesh, material), position)
+    }
+
+    #[test]
+    fn the_error_of_a_strain_is_its_change_to_the_next_element_over_what_bonds_have_left() {
+        for even in [0.0, 0.02] {
+            let (forces, position) = bent(even);
+            // Elements above each other are ten rows apart, those side by side are strained alike.
+            let change = SMALL * 10.0 * 0.75f64.sqrt() * forces.mesh.spacing;
+            // Bonds at 60 degrees are the longest.
+            let longest = (0.25 + 0.75 * (1.0 + even) * (1.0 + even)).sqrt() - 1.0;
+            let expected = change / (forces.material.critical_strain() - longest);
+            let errors = forces.strain_errors(&position);
+            // Some of the rows beside those in the grips border on these alone.
+            let inner = |triangle: &usize| (20..40).contains(&forces.mesh.elements[*triangle].lowest_row());
+            for triangle in (0..forces.mesh.triangles).filter(inner) {
+                let error = errors[triangle];
+                assert!(
+                    (error / expected - 1.0).abs() < 1e-4,
+                    "{triangle}: {error} for {expected}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn what_has_no_strength_left_has_an_infinite_error() {
+        let (forces, position) = bent(0.5);
+        assert!(forces.strain_errors(&position).iter().any(|error| error.is_infinite()));
+    }
+}

@@ -29,31 +29,28 @@ impl Forces {
     /// largest eigenvalue of the small matrices bounds that of the large one. For the perfect crystal of atoms the
     /// bound 6 k/m is exact.
     pub fn squared_frequency_bound(&self, state: &State) -> f64 {
-        self.largest(state, false)
+        self.largest(state, self.domain.elements(), false)
+    }
+
+    /// The part of it that atoms have.
+    pub fn squared_frequency_bound_of_atoms(&self, state: &State) -> f64 {
+        let [_, atoms] = self.domain.elements();
+        self.largest(state, [atoms], false)
     }
 
     /// The same to the last bit, by a closer and slower look at every triangle.
     pub fn squared_frequency_bound_one_by_one(&self, state: &State) -> f64 {
-        self.largest(state, true)
+        self.largest(state, self.domain.elements(), true)
     }
 
     /// Largest relative error of [`Self::squared_frequency_bound`], with some room.
     pub const FREQUENCY_SLACK: f64 = 2.0 * alike::SLACK;
 
-    fn largest(&self, state: &State, one_by_one: bool) -> f64 {
-        let tasks = self.tasks().into_par_iter();
+    fn largest<const N: usize>(&self, state: &State, elements: [Range<usize>; N], one_by_one: bool) -> f64 {
+        let tasks = tasks(elements).into_par_iter();
         let bounds = tasks
             .map(|task| with_law!(self.material.interaction, law => self.largest_of(&law, task, state, one_by_one)));
         self.domain.ranks().largest(bounds.reduce(|| 0.0, f64::max))
-    }
-
-    /// The elements of this rank, some at a time.
-    fn tasks(&self) -> Vec<Range<usize>> {
-        let parts = self.domain.elements().into_iter().flat_map(|elements| {
-            let starts = elements.clone().step_by(TASK);
-            starts.map(move |start| start..elements.end.min(start + TASK))
-        });
-        parts.collect()
     }
 
     fn largest_of<S: PairShape>(
@@ -211,6 +208,15 @@ fn largest_eigenvalue(stiffness: &Matrix6<f64>, mass: f64, known: f64) -> f64 {
         return known;
     }
     stiffness.symmetric_eigenvalues().max() / mass
+}
+
+/// Ranges of elements, some elements at a time.
+fn tasks<const N: usize>(elements: [Range<usize>; N]) -> Vec<Range<usize>> {
+    let parts = elements.into_iter().flat_map(|elements| {
+        let starts = elements.clone().step_by(TASK);
+        starts.map(move |start| start..elements.end.min(start + TASK))
+    });
+    parts.collect()
 }
 
 #[cfg(test)]

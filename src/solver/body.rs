@@ -66,6 +66,11 @@ pub trait Body<const D: usize> {
     /// Cuts the specimen anew among the ranks. It leaves no trace in the results.
     fn cut_anew(&mut self, _state: &mut State<D>) {}
 
+    /// Largest stable time step of the atoms of a state whose forces have just been computed, ps, the same on all ranks.
+    fn stability_limit_of_atoms(&self, state: &State<D>) -> f64 {
+        self.stability_limit(state)
+    }
+
     /// How often to look whether the mesh is fine enough, ps; `None` where it stays as it is.
     fn looks_every(&self) -> Option<f64> {
         None

@@ -26,7 +26,9 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             self.compute(true).map_err(|source| self.blow_up(source))?;
             let after = self.energies();
             self.ledger.refine(before, after);
-            self.stability_limit = self.body.stability_limit(&self.state);
+            // What has stayed an element was looked at before.
+            let of_atoms = self.body.stability_limit_of_atoms(&self.state);
+            self.stability_limit = self.stability_limit.min(of_atoms);
             let longest = self.body.load().longest_step(self.body.spacing());
             let chosen = self.settings.time_step.choose(self.stability_limit, longest);
             let chosen = chosen.map_err(|_| self.step_unstable())?;

@@ -297,6 +297,10 @@ impl Body<2> for Slab {
             .belong_to(&self.forces.domain().nodes(), &impulses, &absorbed);
     }
 
+    fn stability_limit_of_atoms(&self, state: &State) -> f64 {
+        time_step::nine_digits(self.forces.squared_frequency_bound_of_atoms(state))
+    }
+
     fn looks_every(&self) -> Option<f64> {
         let refinement = self.refinement.as_ref()?;
         Some(refinement.looks_every(&self.setting))

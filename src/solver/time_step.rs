@@ -141,6 +141,15 @@ mod tests {
     }
 
     #[test]
+    fn a_look_tells_the_limit_apart_from_close_bonds_and_never_above_what_it_was_before() {
+        // The squared frequencies of limits 1 and 2 are 4 and 1.
+        assert_eq!(without_close_bonds(1.0, 3.0, 3.0), 2.0);
+        assert!((without_close_bonds(1.0, 3.0, 1.5) - 1.5).abs() < 1e-15);
+        assert_eq!(without_close_bonds(1.0, 3.0, 0.5), 1.0);
+        assert_eq!(without_close_bonds(1.0, 0.0, 0.5), 1.0);
+    }
+
+    #[test]
     fn a_limit_that_is_far_is_looked_at_less_often() {
         let auto = TimeStep::Auto { fraction: 0.5 };
         let looks = |time_step: TimeStep, limit: f64| {
