@@ -43,11 +43,10 @@ impl Refinement {
         }
     }
 
-    /// Time between looks at the mesh, ps: in which the fastest wave crosses the layers of elements that become atoms ahead of
-    /// what is too coarse. No crack runs half as fast.
+    /// Time between looks at the mesh, ps: in which the fastest wave crosses an element at the crack plane. No crack runs half as
+    /// fast, so that one layer of elements ahead of it would do.
     pub fn looks_every(&self, setting: &Setting) -> f64 {
-        let layers = self.refine.ahead.max(1);
-        f64::from(layers * self.element) * setting.spacing / setting.longitudinal_speed
+        f64::from(self.element) * setting.spacing / setting.longitudinal_speed
     }
 
     /// Triangles of the mesh of the start that have become atoms, ascending.
