@@ -1,5 +1,6 @@
 //! What must hold whatever the mesh, the potential and its cutoff.
 
+mod bar;
 mod crystal;
 mod dispersion;
 mod energy;
