@@ -116,6 +116,7 @@ fn forces_on_solids(bencher: Bencher, (element, cutoff): (u16, f64)) {
             outline: Outline::Rhombohedron(extent),
             frame: Frame::of_blocks(material.spacing),
             removed: vec![],
+            cut: None,
         },
         element,
         regions: vec![],

@@ -2,6 +2,7 @@
 
 mod cubic;
 mod elasticity;
+mod release;
 mod spacing;
 
 pub use cubic::Cubic;

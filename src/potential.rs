@@ -85,6 +85,11 @@ impl Interaction {
         with_law!(self, law => law.evaluate(squared_distance))
     }
 
+    /// Energy and phi'/r of a pair that a cut severs, at this squared distance, in a crystal with this spacing.
+    pub fn repulsion(&self, squared_distance: f64, spacing: f64) -> PairValue {
+        with_law!(self, law => law.repulsion(squared_distance, spacing))
+    }
+
     /// Up to this squared distance phi'/r is that without a cutoff.
     pub fn squared_untouched(&self) -> f64 {
         with_law!(self, law => law.squared_untouched())

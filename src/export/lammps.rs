@@ -40,6 +40,11 @@ pub enum ExportError {
          export a case without `run.noise`"
     )]
     Displaced,
+    #[error(
+        "a plane of it is severed, and LAMMPS would need types of atoms for every row of sites near its end; \
+         export a case whose notch is `blocks` that are left out"
+    )]
+    Severed,
     #[error("LAMMPS has no pair style that equals {what}; it has those that equal {available}")]
     NoPairStyle {
         what: &'static str,

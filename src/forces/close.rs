@@ -48,7 +48,7 @@ pub struct Close {
     /// Shorter bonds are close, nm^2.
     pub squared_length: f64,
     /// nm
-    spacing: f64,
+    pub spacing: f64,
     /// phi'' of a bond of the crystal, eV/nm^2.
     stiffness: f64,
 }

@@ -5,7 +5,8 @@
 //! neighbour search (`pairs`). [`referee`] sums over all pairs without any of this.
 //!
 //! Interfaces are used where the potential reaches nearest neighbours alone. One is intact as long as all of its bonds are
-//! within the cutoff and no second neighbours across it are; then it opens for good.
+//! within the cutoff and no second neighbours across it are; then it opens for good. Those along a cut are open from the start,
+//! and pairs that it severs only repel each other ([`CutPotential::repulsion`](crate::potential::CutPotential::repulsion)).
 
 mod burden;
 mod certified;
@@ -18,6 +19,7 @@ mod frequency;
 mod grid;
 mod inside;
 mod listed;
+mod lists;
 mod measure;
 mod pairs;
 mod points;
@@ -61,8 +63,8 @@ pub enum ForceError {
     FlewAway { element: usize },
 }
 
-/// Bonds this much longer than the cutoff (in spacings) are summed inside parts, because they come within it where parts are
-/// compressed.
+/// Bonds this much longer than the cutoff (in spacings) are summed inside parts, and of long cutoffs between them, because they
+/// come within it where parts are compressed.
 const LISTED_BEYOND_CUTOFF: f64 = 0.3;
 
 /// Largest coordinate over the largest of the specimen. No fragment flies so far in the time of a run.
@@ -109,7 +111,14 @@ impl Forces {
     /// The part of this rank in the forces that all ranks compute together.
     pub fn shared(ranks: Ranks, mesh: Solid, material: Material, summation: Summation) -> Self {
         let reach = material.interaction.cutoff() / material.spacing;
-        let interfaces = Interfaces::new(&mesh, reach);
+        // Elements that are compressed bring pairs from beyond the cutoff; second neighbours are watched apart.
+        let listed = reach
+            + if reach > SECOND_NEIGHBOURS {
+                LISTED_BEYOND_CUTOFF
+            } else {
+                0.0
+            };
+        let interfaces = Interfaces::new(&mesh, listed);
         let mut classes = HashMap::new();
         for group in mesh.groups() {
             let of_kind = || inside::classes(group.shape, group.size, reach + LISTED_BEYOND_CUTOFF);
@@ -122,6 +131,9 @@ impl Forces {
             .into_iter()
             .filter_map(|size| Some((size, Few::new(&material, summation, size - 2)?)));
         let intact = if reach > SECOND_NEIGHBOURS { 0.0 } else { 1.0 };
+        let mut intact = vec![intact; interfaces.pairs.len()];
+        let severed = interfaces.severed.iter();
+        severed.for_each(|&number| intact[number as usize] = 0.0);
         let places = mesh.node_positions();
         let largest = places
             .iter()
@@ -131,7 +143,7 @@ impl Forces {
         let domain = Domain::new(ranks, &mesh, |element| if element < parts { PART } else { 1.0 });
         let bordering = bordering(&domain, &interfaces);
         Self {
-            intact: vec![intact; interfaces.pairs.len()],
+            intact,
             tiles: sweep::tiles(&mesh, &interfaces, domain.grouped(), rayon::current_num_threads()),
             halo: Halo::ask(&domain, &mesh, &bordering),
             farthest: FARTHEST * largest,

@@ -4,9 +4,11 @@
 //! side by side are a group, whose first nodes have consecutive numbers, then their second, as in [`super::groups`].
 
 pub mod bonds;
+pub mod cut;
 pub mod element;
 pub mod interfaces;
 pub mod region;
+pub mod severed;
 pub mod sites;
 pub mod template;
 #[cfg(test)]

@@ -216,6 +216,21 @@ impl<S: PairShape> CutPotential<S> {
         }
     }
 
+    /// Energies and phi'/r of the repulsion of several pairs at once.
+    #[inline(always)]
+    pub fn repulsions<L: Simd>(&self, simd: L, squared_distances: Lanes<L>, spacing: f64) -> [Lanes<L>; 2] {
+        let minimum = self.shape.minimum();
+        let scale = (minimum / spacing) * (minimum / spacing);
+        let [energies, slopes] = self.shape.energies_and_slopes(simd, squared_distances * scale);
+        let (well, _) = self.shape.energy_and_slope(minimum * minimum);
+        let is_near = squared_distances.is_below(spacing * spacing);
+        let zero = Lanes::all(simd, 0.0);
+        [
+            (energies - Lanes::all(simd, well)).where_or(is_near, zero),
+            (slopes * scale).where_or(is_near, zero),
+        ]
+    }
+
     /// Second derivative of the repulsion.
     pub fn repulsion_curvature(&self, distance: f64, spacing: f64) -> f64 {
         let scale = self.shape.minimum() / spacing;

@@ -5,12 +5,15 @@ pub mod burden;
 mod estimate;
 mod experiment;
 mod faces;
+mod intensity;
 mod plan;
+mod severed;
 mod specimen;
 mod words;
 
 pub use bar::bar;
 pub use estimate::Estimator;
+pub use intensity::Intensity;
 pub use plan::{Laid, lay_out};
 pub use specimen::{Kind, Specimen};
 
@@ -23,7 +26,7 @@ use crate::mesh::solid::Solid as Mesh;
 use crate::solver::solid::Experiment;
 use crate::solver::{self, Solver};
 use crate::study::Subject;
-use crate::study::case::solid::{Loading, Notch};
+use crate::study::case::solid::Loading;
 use crate::study::case::{Case, MassMatrix, Solid, Summation};
 
 /// The crystal of a solid.
@@ -58,24 +61,14 @@ fn settings(case: &Case, solid: &Solid) -> solver::Settings {
 }
 
 /// Refuses what a study may ask for and the forces of solids do not have.
-pub fn refuse_what_is_not_there(case: &Case, solid: &Solid) -> Result<(), SetupError> {
-    let asked = [
-        (
-            matches!(solid.notch, Some(Notch::Plane { .. })),
-            Subject::Notch,
-            "planes cannot be severed in this version",
-            "leave out blocks instead: `notch: {blocks: {from: [0, 20, 0], to: [10, 21, 1]}}`",
-        ),
-        (
-            !matches!(case.run.summation, Summation::Exact | Summation::Gauss { .. }),
-            Subject::Summation,
-            "in this version a solid is summed by every bond, or by a few points a patch where faces are hardly bent",
-            "write `summation: {gauss: 6}`, `{gauss: 3}` or `exact`",
-        ),
-    ];
-    match asked.into_iter().find(|(is_asked, ..)| *is_asked) {
-        Some((_, subject, message, help)) => Err(SetupError::NotThere { subject, message, help }),
-        None => Ok(()),
+pub fn refuse_what_is_not_there(case: &Case) -> Result<(), SetupError> {
+    match case.run.summation {
+        Summation::Exact | Summation::Gauss { .. } => Ok(()),
+        Summation::StrictGauss { .. } | Summation::Nodal => Err(SetupError::NotThere {
+            subject: Subject::Summation,
+            message: "in this version a solid is summed by every bond, or by a few points a patch where faces are hardly bent",
+            help: "write `summation: {gauss: 6}`, `{gauss: 3}` or `exact`",
+        }),
     }
 }
 
@@ -101,7 +94,7 @@ fn refuse_half_held_elements(mesh: &Mesh, experiment: &Experiment) -> Result<(),
 
 /// The part of this rank in a solver of a solid at the start of its run.
 pub fn solver(case: &Case, solid: &Solid, ranks: Ranks) -> Result<Solver<solver::Solid, 3>, SetupError> {
-    refuse_what_is_not_there(case, solid)?;
+    refuse_what_is_not_there(case)?;
     let material = material(solid)?;
     let laid = lay_out(solid, material.spacing)?;
     let sites = specimen::site_count(&laid.plan);
@@ -109,6 +102,7 @@ pub fn solver(case: &Case, solid: &Solid, ranks: Ranks) -> Result<Solver<solver:
     // All have looked at what is free before any takes of it.
     ranks.wait_for_all();
     let mesh = Mesh::new(&laid.plan);
+    severed::refuse_severed_elements(&mesh)?;
     let experiment = experiment::experiment(solid, &laid, &mesh, &material)?;
     if case.run.mass != MassMatrix::Lumped {
         refuse_half_held_elements(&mesh, &experiment)?;

@@ -4,7 +4,8 @@ use super::grown::Root;
 use super::joints::{cross, dot, minus};
 use super::{How, Parted};
 use crate::mesh::solid::Solid;
-use crate::mesh::solid::sites::Frame;
+use crate::mesh::solid::cut::Cut;
+use crate::mesh::solid::sites::{Frame, Outline};
 
 /// Directions at a straight notch from one side of a solid, in the reference state.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,8 +25,43 @@ pub struct Directions {
 }
 
 impl Directions {
-    /// `None` unless one slot reaches from a side of a rhombohedron of blocks into it, over its whole width.
+    /// `None` unless one slot or one severed plane reaches from a side of a rhombohedron of blocks into it, over its whole width.
     pub fn of(mesh: &Solid) -> Option<Self> {
+        match mesh.sites.cut {
+            Some(cut) => Self::of_cut(mesh, cut),
+            None => Self::of_slot(mesh),
+        }
+    }
+
+    fn of_cut(mesh: &Solid, cut: Cut) -> Option<Self> {
+        let sites = &mesh.sites;
+        let Outline::Rhombohedron(extent) = sites.outline else {
+            return None;
+        };
+        let axis = |factors: [i32; 3]| factors.iter().position(|&factor| factor != 0);
+        let (normal, into) = (axis(cut.normal)?, axis(cut.into)?);
+        let width = 3 - normal - into;
+        let placed = cut.placed(&sites.frame.vectors);
+        let mut end = extent.map(|sites| 0.5 * f64::from(sites - 1));
+        end[normal] = f64::from(cut.layer) - 0.5;
+        end[into] = f64::from(cut.into[into]) * (f64::from(cut.end) - 0.5);
+        let behind = match cut.into[into] {
+            1 => cut.end,
+            _ => cut.end - 1 + extent[into],
+        };
+        let step = dot(placed.ahead, sites.frame.vectors[into]).abs();
+        Some(Self {
+            up: placed.up,
+            ahead: placed.ahead,
+            end: sites.frame.place_between(end),
+            width: f64::from(extent[width]) * mesh.spacing,
+            ligament: f64::from(extent[into] - behind) * step,
+            axis: width,
+            frame: sites.frame,
+        })
+    }
+
+    fn of_slot(mesh: &Solid) -> Option<Self> {
         let [slot] = mesh.sites.removed[..] else { return None };
         let bounds = mesh.sites.bounds();
         let touches = |axis: usize| [slot.from[axis] == bounds.from[axis], slot.to[axis] == bounds.to[axis]];

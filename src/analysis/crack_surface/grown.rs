@@ -14,7 +14,7 @@ const LINK_OF_BONDS: f64 = 1.1;
 /// Where cracks begin.
 #[derive(Clone, Copy, Debug)]
 pub enum Root<'a> {
-    /// At the sides of what is left out of a solid.
+    /// At the sides of what is left out of a solid, and along a severed plane.
     Notch(&'a Solid),
     /// Wherever something opens.
     Anywhere,
@@ -22,7 +22,7 @@ pub enum Root<'a> {
 
 impl<'a> Root<'a> {
     pub fn of(mesh: &'a Solid) -> Self {
-        match mesh.sites.removed.is_empty() {
+        match mesh.sites.removed.is_empty() && mesh.sites.cut.is_none() {
             true => Self::Anywhere,
             false => Self::Notch(mesh),
         }
@@ -39,7 +39,9 @@ impl<'a> Root<'a> {
             let way = minus(frame.place_between(nearest), place);
             dot(way, way).sqrt()
         };
-        mesh.sites.removed.iter().map(to).fold(f64::INFINITY, f64::min)
+        let to_cut = mesh.sites.cut.map(|cut| cut.placed(&frame.vectors).distance(place));
+        let all = mesh.sites.removed.iter().map(to).chain(to_cut);
+        all.fold(f64::INFINITY, f64::min)
     }
 }
 

@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use super::nearby::Nearby;
 use super::{FAMILIES, How, Parted};
 use crate::mesh::solid::Solid;
-use crate::mesh::solid::bonds::{Bonds, End, place_of};
+use crate::mesh::solid::bonds::{self, Bonds, End, place_of};
 use crate::mesh::solid::interfaces::Interfaces;
 use crate::mesh::solid::sites::Frame;
 use crate::mesh::solid::template::{BORDERS, Contact};
@@ -29,7 +29,7 @@ const NEIGHBOUR: f64 = 1.207_106_781_186_547_5;
 /// Open bonds so near tell in which plane one of them lies, spacings.
 const AROUND: f64 = 2.5;
 
-/// All that may open or slide in a solid.
+/// All that may open or slide in a solid: what a cut severs is not among it.
 pub struct Joints<'a> {
     mesh: &'a Solid,
     /// Distance beyond which a bond of nearest neighbours is broken, nm.
@@ -69,9 +69,14 @@ impl<'a> Joints<'a> {
                 (atoms + of_parts.len() - 1) as u32
             }),
         };
-        let pairs: Vec<[u32; 2]> = bonds.of_parts.iter().map(|ends| ends.map(&mut number)).collect();
+        let site = |end: End| mesh.elements[end.0 as usize].site(end.1);
+        let of_parts_bonds = bonds.of_parts.iter();
+        let whole = of_parts_bonds.filter(|[a, b]| !mesh.sites.severs(site(*a), site(*b)));
+        let pairs: Vec<[u32; 2]> = whole.map(|ends| ends.map(&mut number)).collect();
         let mut neighbours = vec![0; atoms + of_parts.len()];
         let between_atoms = (0..atoms).flat_map(|atom| bonds.of_atom(atom).map(move |(_, other)| [atom as u32, other]));
+        let anchor = |atom: u32| mesh.elements[mesh.parts + atom as usize].anchor;
+        let between_atoms = between_atoms.filter(|&[a, b]| !mesh.sites.severs(anchor(a), anchor(b)));
         let ends = between_atoms.chain(pairs.iter().copied()).flatten();
         ends.for_each(|site| neighbours[site as usize] += 1);
         Self {
@@ -136,7 +141,8 @@ impl<'a> Joints<'a> {
         };
         let of_atom = |atom: usize| {
             let others = self.bonds.of_atom(atom).map(move |(_, other)| [atom as u32, other]);
-            others.filter(|&pair| is_broken(pair)).collect::<Vec<_>>()
+            let broken = others.filter(|&pair| is_broken(pair) && !self.is_severed(pair));
+            broken.collect::<Vec<_>>()
         };
         let mut broken: Vec<[u32; 2]> = (0..atoms).into_par_iter().flat_map_iter(of_atom).collect();
         broken.extend(self.pairs.iter().filter(|&&pair| is_broken(pair)));
@@ -149,7 +155,7 @@ impl<'a> Joints<'a> {
         let nearby = Nearby::around(ends, sites, radius);
         let lost = |site: u32| {
             let others = nearby.within(place(site), radius).filter(|&other| other != site);
-            let others = others.filter(|&other| !self.have_no_bond(site, other));
+            let others = others.filter(|&other| !self.have_no_bond(site, other) && !self.is_severed([site, other]));
             i32::from(self.neighbours[site as usize]) - others.count() as i32
         };
         let pieces = broken.par_iter().map(|&ends| {
@@ -174,6 +180,11 @@ impl<'a> Joints<'a> {
         size(one).is_some_and(|size_of_one| Some(size_of_one) == size(other))
     }
 
+    fn is_severed(&self, ends: [u32; 2]) -> bool {
+        let [a, b] = ends.map(|site| self.site(site));
+        self.mesh.sites.severs(a, b)
+    }
+
     /// The lattice site of a number.
     fn site(&self, site: u32) -> [i32; 3] {
         let (element, local) = match (site as usize).checked_sub(self.bonds.atom_count()) {
@@ -185,8 +196,11 @@ impl<'a> Joints<'a> {
 }
 
 fn faces(mesh: &Solid, interfaces: &Interfaces) -> Vec<Face> {
-    let pairs = interfaces.pairs.iter().zip(&interfaces.borders);
-    let face = |([first, second], border): (&[u32; 2], &u8)| {
+    let pairs = (0..).zip(interfaces.pairs.iter().zip(&interfaces.borders));
+    let face = |(number, ([first, second], border)): (u32, (&[u32; 2], &u8))| {
+        if interfaces.severed.binary_search(&number).is_ok() && is_severed(mesh, [*first, *second]) {
+            return None;
+        }
         let Contact::Face {
             tetrahedron,
             octahedron,
@@ -210,6 +224,17 @@ fn faces(mesh: &Solid, interfaces: &Interfaces) -> Vec<Face> {
         })
     };
     pairs.filter_map(face).collect()
+}
+
+/// Whether a cut severs most of the bonds between two elements.
+fn is_severed(mesh: &Solid, [first, second]: [u32; 2]) -> bool {
+    let site = |end: End| mesh.elements[end.0 as usize].site(end.1);
+    let (mut all, mut severed) = (0, 0);
+    for [a, b] in bonds::between(mesh, first, second) {
+        all += 1;
+        severed += i32::from(mesh.sites.severs(site(a), site(b)));
+    }
+    2 * severed > all
 }
 
 /// What is constant in the planes of each family.

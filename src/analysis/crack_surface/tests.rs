@@ -6,6 +6,7 @@ use super::front::{Directions, front, normal_speed, roughness};
 use super::grown::{Root, grown};
 use super::*;
 use crate::mesh::solid::bonds::Bonds;
+use crate::mesh::solid::cut::Cut;
 use crate::mesh::solid::region::{Region, Shape};
 use crate::mesh::solid::sites::{self, Outline, Range3, Sites};
 use crate::mesh::solid::{Plan, Solid};
@@ -32,6 +33,7 @@ fn mesh(element: u16, slot: Option<Range3>, atoms_between: Option<[f64; 2]>) -> 
             outline: Outline::Rhombohedron(EXTENT),
             frame: sites::Frame::of_blocks(1.0),
             removed: slot.into_iter().collect(),
+            cut: None,
         },
         element,
         regions: region.into_iter().collect(),
@@ -187,6 +189,43 @@ fn a_crack_grows_from_the_notch_and_its_front_is_where_it_ends() {
         assert!(
             (areas.elsewhere / (18.0 * 12.0 * OF_SITE) - 1.0).abs() < AT_SIDES,
             "{areas:?}"
+        );
+    }
+}
+
+/// Severed from the low side of a1 up to the end of a block.
+const CUT: Cut = Cut {
+    normal: [0, 1, 0],
+    layer: 12,
+    into: [1, 0, 0],
+    end: 6,
+};
+
+#[test]
+fn a_crack_grows_from_a_severed_plane_and_what_is_severed_is_none_of_it() {
+    for mut mesh in meshes(None) {
+        mesh.sites.cut = Some(CUT);
+        let joints = Joints::new(&mesh, BREAKING);
+        assert_eq!(joints.parted(&mesh.node_positions()), []);
+        let directions = Directions::of(&mesh).expect("one plane is severed");
+        assert!((directions.width - 12.0).abs() < ROUNDING && (directions.ligament - 12.0 * OF_SITE).abs() < ROUNDING);
+        // Midway between the layers, and between the last row of sites behind the end and the first ahead.
+        let middle = mesh.sites.frame.place_between([5.5, 11.5, 5.5]);
+        assert!((0..3).all(|axis| (directions.end[axis] - middle[axis]).abs() < ROUNDING));
+        let position = moved(&mesh, normal().map(|part| 0.6 * part), |site| site[1] >= 12);
+        let parted = joints.parted(&position);
+        let root = Root::of(&mesh);
+        let is_crack = grown(&parted, &root, 1.0);
+        let areas = Areas::of(&parted, &is_crack);
+        assert!(
+            (areas.crack[1] / (12.0 * 12.0 * OF_SITE) - 1.0).abs() < AT_SIDES,
+            "{areas:?}"
+        );
+        assert!(areas.elsewhere < AT_SIDES * areas.crack[1], "{areas:?}");
+        let front = front(&parted, &is_crack, &root, &directions, 2);
+        assert!(
+            front.iter().all(|&front| (7.0..12.0 * OF_SITE).contains(&front)),
+            "{front:?}"
         );
     }
 }

@@ -155,12 +155,22 @@ pub fn between_grips(setting: &Setting, grips: Grips, strain: f64) -> Option<f64
     Some(factor * setting.young_modulus / setting.thickness * strain * (PI * crack).sqrt())
 }
 
-/// K of the crack as cut under a uniform stress (eV/nm^3) on a long strip, eV/nm^2.5: what the specimen would have if its
-/// grips followed. After Tada, as handbooks give it; `None` where the crack comes from no edge.
-pub fn under_stress(setting: &Setting, stress: f64) -> Option<f64> {
-    let x = setting.crack_length / setting.length;
+/// K/(stress sqrt(pi a)) of a crack over this share of a long strip, from its edge, under a uniform stress. After Tada, as
+/// handbooks give it, to half a percent up to a share of 0.6; `None` beyond.
+pub fn factor_under_stress(share: f64) -> Option<f64> {
+    let x = share;
     let factor = 1.12 - 0.231 * x + 10.55 * x.powi(2) - 21.72 * x.powi(3) + 30.39 * x.powi(4);
-    (x <= MOST_CRACK && !setting.is_crack_inside()).then(|| factor * stress * (PI * setting.crack_length).sqrt())
+    (x <= MOST_CRACK).then_some(factor)
+}
+
+/// K of the crack as cut under a uniform stress (eV/nm^3) on a long strip, eV/nm^2.5: what the specimen would have if its
+/// grips followed; `None` where the crack comes from no edge.
+pub fn under_stress(setting: &Setting, stress: f64) -> Option<f64> {
+    if setting.is_crack_inside() {
+        return None;
+    }
+    let factor = factor_under_stress(setting.crack_length / setting.length)?;
+    Some(factor * stress * (PI * setting.crack_length).sqrt())
 }
 
 /// K of the energy that the height of the specimen holds far ahead of a long crack, C11 strain^2 H/2, which is what the

@@ -7,12 +7,14 @@ use crate::cli::format;
 use crate::plan::PlannedCase;
 use crate::setup::Size;
 use crate::setup::solid::{Kind, Specimen};
+use crate::units::EV_PER_NM3_SQRT_NM_IN_MPA_SQRT_M;
 
-pub const HEAD: [&str; 8] = [
+pub const HEAD: [&str; 9] = [
     "case",
     "blocks",
     "edges",
     "notch",
+    "K / Griffith",
     "held",
     "loading",
     "elements by kind",
@@ -21,6 +23,8 @@ pub const HEAD: [&str; 8] = [
 
 /// What the heads of the columns have no room for.
 pub const NOTES: &str = "edges: along the axes of the solid, nm
+K / Griffith: MPa √m of a severed plane as an edge crack in a long strip under its stress at rest, F σ √(πa) with the handbook
+  factor, and over the K at which it releases what its surfaces cost
 elements by kind: their number, and cells per edge of the block that they are a part of
 left over: share of the atoms in smaller elements than asked for, because no larger one fits there
 ";
@@ -35,6 +39,7 @@ pub fn row(planned: &PlannedCase, specimen: &Specimen) -> Vec<String> {
         blocks.unwrap_or_else(|| "-".to_owned()),
         edges.join(" x "),
         notch(specimen),
+        intensity(specimen).unwrap_or_else(|| "-".to_owned()),
         specimen.held.clone().unwrap_or_else(|| "-".to_owned()),
         specimen.loading.clone(),
         kinds(specimen),
@@ -66,9 +71,19 @@ fn plural(kind: &Kind) -> &'static str {
 pub fn notch(specimen: &Specimen) -> String {
     match (specimen.slot, specimen.severed) {
         (Some(blocks), _) => format!("{blocks} blocks out"),
-        (None, Some([depth, at])) => format!("severed {} deep at {}", digits(depth.actual), size(at)),
+        (None, Some([depth, at])) => format!("severed {} deep at {}", size(depth), size(at)),
         (None, None) => "none".to_owned(),
     }
+}
+
+/// `1.21 / 1.16`: K in MPa √m, and over that of Griffith.
+pub fn intensity(specimen: &Specimen) -> Option<String> {
+    let told = specimen.intensity?;
+    Some(format!(
+        "{} / {}",
+        digits(told.k * EV_PER_NM3_SQRT_NM_IN_MPA_SQRT_M),
+        digits(told.k / told.griffith)
+    ))
 }
 
 pub fn to_json(specimen: &Specimen) -> Value {
@@ -85,8 +100,10 @@ pub fn to_json(specimen: &Specimen) -> Value {
         "blocks": specimen.blocks,
         "edges": edges.collect::<serde_json::Map<_, _>>(),
         "blocks_left_out": specimen.slot,
-        "severed_depth_nm": specimen.severed.map(|severed| severed[0].actual),
+        "severed_depth_nm": specimen.severed.map(|severed| pair(severed[0])),
         "severed_at_nm": specimen.severed.map(|severed| pair(severed[1])),
+        "k_at_rest_mpa_sqrt_m": specimen.intensity.map(|told| told.k * EV_PER_NM3_SQRT_NM_IN_MPA_SQRT_M),
+        "k_griffith_mpa_sqrt_m": specimen.intensity.map(|told| told.griffith * EV_PER_NM3_SQRT_NM_IN_MPA_SQRT_M),
         "held": specimen.held,
         "loading": specimen.loading,
         "kinds": kinds.collect::<Vec<Value>>(),
@@ -97,13 +114,14 @@ pub fn to_json(specimen: &Specimen) -> Value {
 pub fn warnings(specimen: &Specimen) -> Vec<String> {
     let moved = specimen
         .severed
-        .map(|severed| severed[1])
-        .filter(|at| at.error().abs() > NOTABLE);
-    let moved = moved.map(|at| {
+        .filter(|severed| severed.iter().any(|size| size.error().abs() > NOTABLE));
+    let moved = moved.map(|[depth, at]| {
         format!(
-            "between planes of atoms, the severed plane lies at {} nm instead of {} nm",
+            "along borders of elements, the severed plane lies at {} nm instead of {} nm and is {} nm deep instead of {} nm",
             digits(at.actual),
-            digits(at.asked)
+            digits(at.asked),
+            digits(depth.actual),
+            digits(depth.asked)
         )
     });
     let share = specimen.leftover_share.filter(|&share| share > MANY_LEFTOVERS);

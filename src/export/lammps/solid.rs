@@ -5,6 +5,7 @@ use super::pair_styles::PairStyles;
 use super::{Crystal, ExportError, Times, exact, refuse_what_is_not_there};
 use crate::loading::{Act, Course};
 use crate::material::Material;
+use crate::study::case::solid::Notch;
 use crate::study::case::{Case, Solid};
 
 /// What LAMMPS must know of a solid of atoms.
@@ -36,6 +37,9 @@ impl SolidModel {
         acts: impl Iterator<Item = (&'a str, Act<3>)>,
     ) -> Result<Self, ExportError> {
         refuse_what_is_not_there(case)?;
+        if let Some(Notch::Plane { .. }) = solid.notch {
+            return Err(ExportError::Severed);
+        }
         let (names, acts): (Vec<&str>, Vec<Act<3>>) = acts.unzip();
         let groups: Vec<Vec<u32>> = acts.iter().map(Act::nodes).collect();
         let (types, of_groups) = AtomTypes::of_groups(atoms, &groups);

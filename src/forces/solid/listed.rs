@@ -1,10 +1,9 @@
 //! The sums over pairs of points along their lists, as many points at a time as the processor takes.
 
-use std::ops::Range;
-
 use pulp::{Simd, WithSimd};
 
 use super::inside::within;
+use super::lists::Lists;
 use super::measure::{Held, PARTS};
 use super::vector::Vector;
 use crate::lanes::{Lanes, MOST, Mask};
@@ -20,8 +19,10 @@ pub struct Sum<'a, S, const MEASURED: bool> {
     pub close: f64,
     /// Number of the first group.
     pub first: usize,
-    pub lists: &'a [Range<u32>],
-    pub partners: &'a [u32],
+    pub bonded: &'a Lists,
+    pub severed: &'a Lists,
+    /// Severed pairs repel each other when nearer than this, nm.
+    pub spacing: f64,
     pub places: &'a [[f64; 4]],
     pub force: &'a mut [[Side; 3]],
     pub held: &'a mut [[Side; PARTS]],
@@ -37,8 +38,9 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
             law,
             close,
             first,
-            lists,
-            partners,
+            bonded,
+            severed,
+            spacing,
             places,
             force,
             held,
@@ -47,18 +49,17 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
         let mut crowded = Vec::new();
         for (number, force) in force.iter_mut().enumerate() {
             let group = first + number;
-            let list = &lists[group];
-            if list.is_empty() {
+            let [bonded, severed] = [bonded, severed].map(|lists| lists.of_group(group));
+            if bonded.is_empty() && severed.is_empty() {
                 continue;
             }
-            let list = &partners[list.start as usize..list.end as usize];
             let mut is_crowded = Mask::all(simd, false);
             let mut lane = 0;
             while lane < MOST {
                 let here = gather(simd, places, |k| group * MOST + lane + k);
                 let mut sum = Vector::zero(simd);
                 let mut of_pairs = Held::<L, MEASURED>::new(simd);
-                for partners in list.chunks_exact(MOST) {
+                for partners in bonded.chunks_exact(MOST) {
                     let bond = gather(simd, places, |k| partners[lane + k] as usize) - here;
                     let squared = bond.squared();
                     is_crowded = is_crowded.or(squared.is_below(close));
@@ -69,6 +70,16 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
                     } else {
                         sum = bond.times_add(law.slopes(simd, squared), sum);
                     }
+                }
+                for partners in severed.chunks_exact(MOST) {
+                    let bond = gather(simd, places, |k| partners[lane + k] as usize) - here;
+                    let squared = bond.squared();
+                    is_crowded = is_crowded.or(squared.is_below(close));
+                    let values = law.repulsions(simd, squared, spacing);
+                    if MEASURED {
+                        of_pairs.add(values, bond, Lanes::all(simd, 0.0), Lanes::all(simd, 1.0));
+                    }
+                    sum = bond.times_add(values[1], sum);
                 }
                 for (plane, part) in force.iter_mut().zip([sum.x, sum.y, sum.z]) {
                     part.store(plane, lane, lanes);

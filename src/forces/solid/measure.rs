@@ -20,7 +20,7 @@ impl Measure {
         self.planes[0][element]
     }
 
-    /// Pairs within the cutoff, those shared with another element as a half.
+    /// Pairs within the cutoff that no cut severs, those shared with another element as a half.
     pub fn pairs(&self, element: usize) -> f64 {
         self.planes[1][element]
     }

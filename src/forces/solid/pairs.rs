@@ -12,6 +12,7 @@ use super::Planes;
 use super::drift::{Drift, Lengths, Moments};
 use super::grid::Grid;
 use super::listed::{Side, Sum};
+use super::lists::{self, Lists};
 use super::measure::PARTS;
 use super::points::Points;
 use crate::forces::close::{Close, Crowd};
@@ -34,9 +35,9 @@ pub struct Pairs {
     mine: [Range<usize>; 2],
     /// Points that it must know the places of: its own with partners, and these.
     followed: Vec<Range<usize>>,
-    /// For each [`MOST`] points where their partners are; side by side as many partners as there are points.
-    lists: Vec<Range<u32>>,
-    partners: Vec<u32>,
+    /// Their partners, and those from which a cut severs them.
+    bonded: Lists,
+    severed: Lists,
     grid: Grid,
     /// Where the nodes were when the lists were made.
     then: Planes,
@@ -89,8 +90,8 @@ impl Pairs {
                 points.of_elements(atoms, points.first_atom()..points.len()),
             ],
             followed: Vec::new(),
-            lists: Vec::with_capacity(count),
-            partners: Vec::new(),
+            bonded: Lists::default(),
+            severed: Lists::default(),
             then: position.clone(),
             watched,
             drift: Drift::default(),
@@ -102,14 +103,9 @@ impl Pairs {
         };
         let list = |around: &mut Around, group| pairs.list(group, around, &joined, |point| then[point]);
         let groups = (0..count).into_par_iter();
-        let lists: Vec<Vec<u32>> = groups.map_init(Around::default, list).collect();
-        let mut total = 0;
-        pairs.lists.extend(lists.iter().map(|list| {
-            let start = total;
-            total += list.len() as u32;
-            start..total
-        }));
-        pairs.partners = lists.concat();
+        let (bonded, severed): (Vec<_>, Vec<_>) = groups.map_init(Around::default, list).unzip();
+        pairs.bonded = Lists::of(&bonded);
+        pairs.severed = Lists::of(&severed);
         pairs.followed = pairs.with_partners();
         pairs
     }
@@ -131,10 +127,9 @@ impl Pairs {
             }
             let groups = points.start / MOST..points.end.div_ceil(MOST);
             for group in groups.clone() {
-                let list = self.list(group, &mut around, &joined, |point| self.points.place(point, &then));
-                let start = self.partners.len() as u32;
-                self.partners.extend(list);
-                self.lists[group] = start..self.partners.len() as u32;
+                let (bonded, severed) = self.list(group, &mut around, &joined, |point| self.points.place(point, &then));
+                self.bonded.replace(group, &bonded);
+                self.severed.replace(group, &severed);
             }
             let all = groups.start * MOST..self.points.len().min(groups.end * MOST);
             if !self.followed.contains(&all) {
@@ -144,29 +139,26 @@ impl Pairs {
         self.then = then;
     }
 
-    /// Partners of as many points side by side as there are lanes; none for those of other ranks.
+    /// Partners of as many points side by side as there are lanes, and those from which a cut severs them; none for points of
+    /// other ranks.
     fn list(
         &self,
         group: usize,
         around: &mut Around,
         joined: &impl Fn(u32, &mut Vec<u32>),
         then: impl Fn(usize) -> [f64; 3],
-    ) -> Vec<u32> {
+    ) -> (Vec<u32>, Vec<u32>) {
         let nobody = self.points.len() as u32;
-        let mut list = Vec::new();
+        let (mut bonded, mut severed) = (Vec::new(), Vec::new());
         for lane in 0..MOST {
             let point = group * MOST + lane;
             if self.points.is_point(point) && self.mine.iter().any(|mine| mine.contains(&point)) {
                 self.find(point, around, joined, &then);
-                let partners = &around.partners;
-                if list.len() < partners.len() * MOST {
-                    list.resize(partners.len() * MOST, nobody);
-                }
-                let slots = partners.iter().enumerate();
-                slots.for_each(|(slot, &partner)| list[slot * MOST + lane] = partner);
+                lists::add(&mut bonded, lane, &around.partners, nobody);
+                lists::add(&mut severed, lane, &around.severed, nobody);
             }
         }
-        list
+        (bonded, severed)
     }
 
     /// Finds the partners of a point.
@@ -179,6 +171,7 @@ impl Pairs {
     ) {
         let Around {
             partners,
+            severed,
             joined_to,
             part,
         } = around;
@@ -190,6 +183,7 @@ impl Pairs {
         }
         let reach = self.lengths.radius * self.lengths.radius;
         partners.clear();
+        severed.clear();
         self.grid.near(here, |other| {
             let there = then(other as usize);
             let way = [there[0] - here[0], there[1] - here[1], there[2] - here[2]];
@@ -198,22 +192,27 @@ impl Pairs {
                 let theirs = self.points.element[other as usize];
                 let are_parts = is_of_part && self.points.is_of_part(other as usize);
                 if own != theirs && !(are_parts && joined_to.contains(&theirs)) {
-                    partners.push(other);
+                    match self.points.are_severed(point, other as usize) {
+                        true => severed.push(other),
+                        false => partners.push(other),
+                    }
                 }
             }
         });
         partners.sort_unstable();
+        severed.sort_unstable();
     }
 
     /// Points of this rank with partners, and these, as ranges.
     fn with_partners(&self) -> Vec<Range<usize>> {
         let count = self.points.len();
         let mut is_followed = vec![false; count];
-        for (group, list) in self.lists.iter().enumerate().filter(|(_, list)| !list.is_empty()) {
+        let groups = (0..self.force.len()).flat_map(|group| [&self.bonded, &self.severed].map(|lists| (group, lists)));
+        let lists = groups.map(|(group, lists)| (group, lists.of_group(group)));
+        for (group, list) in lists.filter(|(_, list)| !list.is_empty()) {
             let own = group * MOST..count.min((group + 1) * MOST);
             is_followed[own].fill(true);
-            let partners = self.partners[list.start as usize..list.end as usize].iter();
-            let partners = partners.map(|&partner| partner as usize);
+            let partners = list.iter().map(|&partner| partner as usize);
             partners
                 .filter(|&partner| partner < count)
                 .for_each(|partner| is_followed[partner] = true);
@@ -294,8 +293,8 @@ impl Pairs {
         self.held
             .resize(if MEASURED { groups } else { 0 }, [[0.0; MOST]; PARTS]);
         let Self {
-            lists,
-            partners,
+            bonded,
+            severed,
             places,
             force,
             held,
@@ -309,8 +308,9 @@ impl Pairs {
                 law: *law,
                 close: close.squared_length,
                 first: chunk * CHUNK,
-                lists,
-                partners,
+                bonded,
+                severed,
+                spacing: close.spacing,
                 places,
                 force,
                 held,
@@ -324,23 +324,25 @@ impl Pairs {
     /// What close bonds do to the points of a group.
     fn crowd<S: PairShape>(&self, law: &CutPotential<S>, close: Close, group: usize) -> Crowd {
         let mut crowds = [Crowd::NONE; MOST];
-        self.for_each_of(group, |[point, _], bond| {
-            let squared = bond.iter().map(|component| component * component).sum();
-            crowds[point as usize % MOST].add(close, law, squared, false, 1.0);
-        });
+        for (lists, severed) in [(&self.bonded, false), (&self.severed, true)] {
+            self.for_each_of(lists, group, |[point, _], bond| {
+                let squared = bond.iter().map(|component| component * component).sum();
+                crowds[point as usize % MOST].add(close, law, squared, severed, 1.0);
+            });
+        }
         crowds.into_iter().fold(Crowd::NONE, Crowd::and)
     }
 
     /// Gives the vector from each point of this rank to each partner.
     pub fn for_each(&self, mut give: impl FnMut([u32; 2], [f64; 3])) {
-        (0..self.lists.len()).for_each(|group| self.for_each_of(group, &mut give));
+        for lists in [&self.bonded, &self.severed] {
+            (0..self.force.len()).for_each(|group| self.for_each_of(lists, group, &mut give));
+        }
     }
 
-    /// The same of the points of a group.
-    fn for_each_of(&self, group: usize, mut give: impl FnMut([u32; 2], [f64; 3])) {
-        let list = &self.lists[group];
-        let list = &self.partners[list.start as usize..list.end as usize];
-        for (place, &partner) in list.iter().enumerate() {
+    /// The same of the points of a group and of some lists.
+    fn for_each_of(&self, lists: &Lists, group: usize, mut give: impl FnMut([u32; 2], [f64; 3])) {
+        for (place, &partner) in lists.of_group(group).iter().enumerate() {
             let point = group * MOST + place % MOST;
             if (partner as usize) < self.points.len() {
                 let [here, there] = [self.places[point], self.places[partner as usize]];
@@ -357,6 +359,8 @@ impl Pairs {
 #[derive(Default)]
 struct Around {
     partners: Vec<u32>,
+    /// Those from which a cut severs it.
+    severed: Vec<u32>,
     /// The parts that intact interfaces join to this part.
     joined_to: Vec<u32>,
     part: Option<u32>,

@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::Planes;
 use crate::lanes::MOST;
 use crate::mesh::solid::Solid;
+use crate::mesh::solid::cut::Cut;
 
 /// Sites by rising number of their element and then in the order of the element, each with the nodes that carry it.
 #[derive(Clone, Debug, Default)]
@@ -14,6 +15,9 @@ pub struct Points {
     carriers: Vec<(u32, f64)>,
     /// The element of each.
     pub element: Vec<u32>,
+    /// What may sever them, and the lattice site of each where anything does.
+    cut: Option<Cut>,
+    sites: Vec<[i32; 3]>,
     of_parts: usize,
     first_atom: usize,
     first_atom_node: usize,
@@ -46,6 +50,16 @@ impl Points {
         points.element.resize(points.of_parts.next_multiple_of(MOST), NOBODY);
         points.first_atom = points.element.len();
         points.element.extend(mesh.parts as u32..mesh.elements.len() as u32);
+        if mesh.sites.cut.is_some() {
+            points.cut = mesh.sites.cut;
+            let of_parts = sites.iter();
+            let of_parts = of_parts.map(|&(part, local)| mesh.elements[part as usize].site(local));
+            points.sites.extend(of_parts);
+            points.sites.resize(points.first_atom, [0; 3]);
+            points
+                .sites
+                .extend(mesh.elements[mesh.parts..].iter().map(|atom| atom.anchor));
+        }
         points
     }
 
@@ -80,6 +94,13 @@ impl Points {
         let of = &self.element[points.clone()];
         let first = |element: usize| points.start + of.partition_point(|&other| (other as usize) < element);
         first(elements.start)..first(elements.end)
+    }
+
+    /// Whether a cut severs two points.
+    #[inline(always)]
+    pub fn are_severed(&self, point: usize, other: usize) -> bool {
+        self.cut
+            .is_some_and(|cut| cut.severs(self.sites[point], self.sites[other]))
     }
 
     /// Nodes that carry a point of a part, and their weights.

@@ -1,6 +1,7 @@
 mod constants;
 mod dispersion;
 mod searches;
+mod severed;
 
 use super::*;
 use crate::mesh::solid::Plan;
@@ -28,6 +29,7 @@ fn solid(extent: [i32; 3], element: u16, regions: Vec<Region>, removed: Vec<Rang
         outline: Outline::Rhombohedron(extent),
         frame: Frame::of_blocks(spacing),
         removed,
+        cut: None,
     };
     Solid::new(&Plan {
         sites,

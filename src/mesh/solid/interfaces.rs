@@ -4,11 +4,10 @@ use std::collections::HashMap;
 
 use super::Solid;
 use super::element::{Element, Shape};
+use super::severed;
+pub use super::severed::SECOND_NEIGHBOURS;
 use super::template::{BORDERS, Border};
 use crate::lattice::fcc;
-
-/// Distance of second neighbours, spacings.
-pub const SECOND_NEIGHBOURS: f64 = 1.415;
 
 /// Borders of one kind between parts side by side: the first of it between the first parts, and so on.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +78,8 @@ pub struct Interfaces {
     pub pairs: Vec<[u32; 2]>,
     /// Place of each among [`BORDERS`].
     pub borders: Vec<u8>,
+    /// Those with first or second neighbours across them that a cut severs, ascending by number.
+    pub severed: Vec<u32>,
     /// Ascending by element.
     pub lonely: Vec<Lonely>,
     starts: Vec<u32>,
@@ -108,6 +109,7 @@ impl Interfaces {
         }
         interfaces.list_by_part(mesh.parts);
         interfaces.find_lonely(mesh, &numbers);
+        interfaces.find_severed(mesh);
         interfaces
     }
 
@@ -175,6 +177,18 @@ impl Interfaces {
                 }
             }
         }
+    }
+
+    fn find_severed(&mut self, mesh: &Solid) {
+        if mesh.sites.cut.is_none() {
+            return;
+        }
+        let is_severed = |&number: &u32| {
+            let [first, second] = self.pairs[number as usize];
+            let facing = self.facing(mesh.elements[first as usize], self.side(number, first));
+            severed::is_severed_between(mesh, first, second, facing)
+        };
+        self.severed = (0..self.pairs.len() as u32).filter(is_severed).collect();
     }
 
     /// Parts that have a side along which atoms or parts of another size lie, ascending.

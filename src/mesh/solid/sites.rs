@@ -1,5 +1,6 @@
-//! Which lattice sites a solid has, and where they stand.
+//! Which lattice sites a solid has, where they stand, and where they are severed from each other.
 
+use super::cut::Cut;
 use crate::lattice::fcc;
 
 /// Axes of the laboratory in the cube of the crystal, and the spacing: how lattice vectors become places.
@@ -116,6 +117,8 @@ pub struct Sites {
     pub frame: Frame,
     /// Slots without sites.
     pub removed: Vec<Range3>,
+    /// A plane across which no bond holds.
+    pub cut: Option<Cut>,
 }
 
 /// A site on the face of a box is inside, whatever rounding says: nm.
@@ -124,6 +127,12 @@ const ON_A_FACE: f64 = 1e-6;
 impl Sites {
     pub fn contains(&self, site: [i32; 3]) -> bool {
         self.is_within(site) && !self.removed.iter().any(|slot| slot.contains(site))
+    }
+
+    /// Whether a pair of sites never bonds, because the line between them crosses a cut.
+    #[inline(always)]
+    pub fn severs(&self, a: [i32; 3], b: [i32; 3]) -> bool {
+        self.cut.is_some_and(|cut| cut.severs(a, b))
     }
 
     fn is_within(&self, site: [i32; 3]) -> bool {
@@ -241,6 +250,7 @@ mod tests {
                 outline,
                 frame,
                 removed: vec![slot],
+                cut: None,
             };
             let bounds = sites.bounds();
             for k in (bounds.from[2] - 3..bounds.to[2]).step_by(5) {

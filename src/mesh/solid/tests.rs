@@ -13,6 +13,7 @@ fn blocks(extent: [i32; 3], element: u16, regions: Vec<Region>, removed: Vec<Ran
         outline: Outline::Rhombohedron(extent),
         frame,
         removed,
+        cut: None,
     };
     Solid::new(&Plan {
         sites,
@@ -95,6 +96,7 @@ fn every_site_is_carried_once_whatever_sizes_are_mixed() {
         outline: Outline::Box([22.0, 19.0, 25.0]),
         frame,
         removed: vec![],
+        cut: None,
     };
     let boxed = Solid::new(&Plan {
         sites,

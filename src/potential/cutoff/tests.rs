@@ -55,6 +55,10 @@ fn slopes_and_curvatures_are_the_derivatives_of_the_energy_for_every_cutoff() {
     );
 }
 
+/// Pairs that a cut severs repel each other when nearer; their energies are differences from a well of depth 1.
+const SPACING: f64 = 1.15;
+const WELL: f64 = 1.0;
+
 /// Compares what pairs at some distances are worth at once with what each is alone.
 struct AtOnce<S> {
     law: CutPotential<S>,
@@ -72,14 +76,16 @@ impl<S: PairShape> pulp::WithSimd for AtOnce<S> {
             let [energies, slopes] = law.values(simd, several).map(Lanes::numbers);
             let curvatures = law.curvatures(simd, several).numbers();
             assert_eq!(slopes, law.slopes(simd, several).numbers());
+            let repulsions = law.repulsions(simd, several, SPACING).map(Lanes::numbers);
             for lane in 0..Lanes::<L>::COUNT {
                 let alone = law.evaluate(squared[from + lane]);
                 let curvature = law.curvature(distances[from + lane]);
-                let expected = [alone.energy, alone.slope, curvature];
-                for (found, expected) in [energies[lane], slopes[lane], curvatures[lane]]
-                    .into_iter()
-                    .zip(expected)
-                {
+                let severed = law.repulsion(squared[from + lane], SPACING);
+                let [repelled, pushed] = repulsions.map(|of| of[lane]);
+                assert!((repelled - severed.energy).abs() <= ORDER_OF_OPERATIONS * severed.energy.max(WELL));
+                let expected = [alone.energy, alone.slope, curvature, severed.slope];
+                let found = [energies[lane], slopes[lane], curvatures[lane], pushed];
+                for (found, expected) in found.into_iter().zip(expected) {
                     let error = (found - expected).abs();
                     assert!(
                         error <= ORDER_OF_OPERATIONS * expected.abs(),

@@ -97,10 +97,16 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
                 significant(PERCENT * share, 2)
             )
         });
+        let intensity = specimen.intensity.as_ref().map_or(String::new(), |told| {
+            format!(
+                ", with a K at rest by F σ √(πa), the handbook factor of an edge crack in a long strip, in MPa √m and over that of \
+                 Griffith: {told}"
+            )
+        });
         notes.push((
             "Specimen",
             format!(
-                "{}: {}; {}; notch: {}; held: {}; loading: {}{leftover}.",
+                "{}: {}; {}; notch: {}{intensity}; held: {}; loading: {}{leftover}.",
                 case.name(),
                 edges.join(", "),
                 specimen.kinds,

@@ -56,6 +56,8 @@ pub struct Specimen {
     /// `1,590 octahedra of 10, 3,180 tetrahedra of 10`
     pub kinds: String,
     pub notch: String,
+    /// K of a severed plane at rest in MPa √m and over that of Griffith, `1.21 / 1.16`.
+    pub intensity: Option<String>,
     pub held: String,
     pub loading: String,
     /// Where the loading pulls, of length 1.

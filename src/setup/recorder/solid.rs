@@ -134,6 +134,7 @@ mod tests {
                 outline: Outline::Rhombohedron([6, 6, 6]),
                 frame: Frame::of_blocks(1.0),
                 removed: vec![],
+                cut: None,
             },
             element: 6,
             regions: vec![],

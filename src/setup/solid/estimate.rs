@@ -35,11 +35,11 @@ pub struct Estimator {
 
 impl Estimator {
     pub fn estimate(&mut self, case: &Case, solid: &Solid) -> Result<Expected<Specimen>, SetupError> {
-        refuse_what_is_not_there(case, solid)?;
+        refuse_what_is_not_there(case)?;
         let material = material(solid)?;
         let laid = lay_out(solid, material.spacing)?;
         refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, ranks(case))?;
-        let specimen = Specimen::of(case, solid, &laid);
+        let specimen = Specimen::of(case, solid, &laid, &material);
         let stability_limit = self.stability_limit(case.run.mass, solid, &material, &specimen);
         let time_step = match case.run.time_step {
             TimeStep::Auto { fraction } => fraction * stability_limit,
@@ -82,7 +82,7 @@ impl Estimator {
         let material = material(solid)?;
         let laid = lay_out(solid, material.spacing)?;
         refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, 1)?;
-        Ok(Specimen::of(case, solid, &laid))
+        Ok(Specimen::of(case, solid, &laid, &material))
     }
 
     /// The stability limit of the perfect crystal in this mesh, ps: that of its stiffest size of elements, each looked at in two
@@ -146,6 +146,7 @@ fn squared_frequency(material: &Material, size: u32, mass: MassMatrix) -> f64 {
             outline: Outline::Rhombohedron([2 * cells, cells, cells]),
             frame: Frame::of_blocks(material.spacing),
             removed: Vec::new(),
+            cut: None,
         },
         element: size as u16,
         regions: Vec::new(),

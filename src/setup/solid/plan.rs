@@ -54,6 +54,7 @@ pub fn lay_out(solid: &Solid, spacing: f64) -> Result<Laid, SetupError> {
                 outline,
                 frame,
                 removed,
+                cut: None,
             },
             element: 0,
             regions,
@@ -72,6 +73,7 @@ pub fn lay_out(solid: &Solid, spacing: f64) -> Result<Laid, SetupError> {
     let regions = solid.resolution.regions.iter().map(region);
     let regions = regions.collect::<Result<_, SetupError>>()?;
     laid.plan.regions = regions;
+    laid.plan.sites.cut = laid.cut(solid)?;
     Ok(laid)
 }
 

@@ -3,13 +3,15 @@
 use std::collections::BTreeMap;
 use std::hash::{DefaultHasher, Hash, Hasher};
 
+use super::intensity::Intensity;
 use super::plan::Laid;
 use super::words;
+use crate::material::Material;
 use crate::mesh::solid::element::Shape as ElementShape;
 use crate::mesh::solid::sites::Outline;
 use crate::mesh::solid::{Plan, Solid as Mesh};
 use crate::setup::Size;
-use crate::study::case::solid::{Depth, Notch, Shape};
+use crate::study::case::solid::{Notch, Shape};
 use crate::study::case::{Body, Case, Solid};
 
 /// Solids with more sites than this are not meshed to be counted.
@@ -38,6 +40,8 @@ pub struct Specimen {
     pub slot: Option<u64>,
     /// How deep a severed plane is, and where it lies, nm.
     pub severed: Option<[Size; 2]>,
+    /// Its stress intensity at rest, where a traction opens it.
+    pub intensity: Option<Intensity>,
     /// The faces that do not move, in words.
     pub held: Option<String>,
     /// What loads it, in words.
@@ -60,7 +64,7 @@ pub struct Specimen {
 }
 
 impl Specimen {
-    pub fn of(case: &Case, solid: &Solid, laid: &Laid) -> Self {
+    pub fn of(case: &Case, solid: &Solid, laid: &Laid, material: &Material) -> Self {
         let kinds = kinds(&laid.plan);
         let sum = |each: fn(&Kind) -> u64| kinds.iter().map(|kind| kind.number * each(kind)).sum();
         let [nodes, elements, sites]: [u64; 3] = [sum(|kind| kind.nodes_each), sum(|_| 1), sum(|kind| kind.sites_each)];
@@ -77,7 +81,8 @@ impl Specimen {
                 Shape::Box { .. } => None,
             },
             slot: slot(solid),
-            severed: severed(solid, laid),
+            severed: laid.severed(solid),
+            intensity: laid.intensity(solid, material),
             held: solid.held.as_ref().map(|held| words::held(solid, held, laid)),
             loading: words::loading(solid, laid),
             direction: laid.pull_direction(solid),
@@ -188,20 +193,6 @@ fn slot(solid: &Solid) -> Option<u64> {
         Some(Notch::Slot { from, to }) => Some((0..3).map(|axis| u64::from(to[axis] - from[axis])).product()),
         _ => None,
     }
-}
-
-/// Depth and place of a severed plane: it lies midway between two planes of sites.
-fn severed(solid: &Solid, laid: &Laid) -> Option<[Size; 2]> {
-    let Some(Notch::Plane { normal, at, depth, .. }) = solid.notch else {
-        return None;
-    };
-    let layer = laid.depth(normal, Depth::Layers(1));
-    let between = match solid.specimen.shape {
-        Shape::Blocks(_) => (at / layer).round() * layer,
-        Shape::Box { .. } => at,
-    };
-    let size = |asked: f64, actual: f64| Size { asked, actual };
-    Some([size(depth, depth), size(at, between)])
 }
 
 fn computation(case: &Case, solid: &Solid, laid: &Laid, kinds: &[Kind]) -> u64 {

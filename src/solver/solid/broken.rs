@@ -1,7 +1,7 @@
 //! Which bonds of nearest neighbours of a solid are broken.
 //!
 //! A bond inside a part of a block does not count, nor does one across an interface that is intact: there the forces see to it
-//! that all are whole.
+//! that all are whole. What a cut severs is damage from the start; it is not among the bonds that have broken.
 
 use std::collections::HashMap;
 
@@ -12,6 +12,13 @@ use crate::forces::solid::Forces;
 use crate::lattice::fcc::NEAREST;
 use crate::mesh::solid::bonds::{self, End, place_of, plus};
 use crate::mesh::solid::element::{Element, Shape};
+
+/// How a bond was lost.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Lost {
+    Broken,
+    Severed,
+}
 
 /// The bonds between elements.
 #[derive(Clone, Debug)]
@@ -39,7 +46,7 @@ impl Bonds {
         }
     }
 
-    /// How many bonds are broken, and of each element the share of the bonds of its sites. All ranks must ask for it together.
+    /// How many bonds are broken, and of each element the share of the bonds of its sites that are broken or severed. All ranks must ask for it together.
     pub fn broken(&mut self, forces: &Forces, position: &mut [Vec<f64>; 3]) -> (u64, Vec<f64>) {
         self.follow(forces);
         let mesh = forces.mesh();
@@ -51,28 +58,38 @@ impl Bonds {
         };
         let at_node = |node: usize| position.each_ref().map(|plane| plane[node]);
         let first = mesh.part_nodes();
-        let of_atom = |atom: usize| -> Vec<[u32; 2]> {
+        let of_atom = |atom: usize| -> Vec<([u32; 2], Lost)> {
             let here = at_node(first + atom);
             let others = self.single.of_atom(atom).map(|(_, other)| other);
-            let broken = others.filter(|&other| is_broken(here, at_node(first + other as usize)));
             let number = |atom: usize| (mesh.parts + atom) as u32;
-            broken.map(|other| [number(atom), number(other as usize)]).collect()
+            let ends = |other: u32| [number(atom), number(other as usize)];
+            let is_severed = |ends: [u32; 2]| {
+                let [a, b] = ends.map(|end| mesh.elements[end as usize].anchor);
+                mesh.sites.severs(a, b)
+            };
+            let lost = others.filter_map(|other| match is_severed(ends(other)) {
+                true => Some((ends(other), Lost::Severed)),
+                false => is_broken(here, at_node(first + other as usize)).then_some((ends(other), Lost::Broken)),
+            });
+            lost.collect()
         };
         let at = |end: End| place_of(mesh, end, position);
         let between_atoms = (0..self.single.atom_count()).into_par_iter().flat_map_iter(of_atom);
         let of_parts = self.single.of_parts.par_iter();
-        let of_parts = of_parts.filter(|[a, b]| is_broken(at(*a), at(*b)));
-        let of_parts = of_parts.map(|[a, b]| [a.0, b.0]);
-        let broken: Vec<[u32; 2]> = between_atoms.chain(of_parts).collect();
+        let site = |end: End| mesh.elements[end.0 as usize].site(end.1);
+        let of_parts = of_parts.filter_map(|&[a, b]| match mesh.sites.severs(site(a), site(b)) {
+            true => Some(([a.0, b.0], Lost::Severed)),
+            false => is_broken(at(a), at(b)).then_some(([a.0, b.0], Lost::Broken)),
+        });
+        let lost: Vec<([u32; 2], Lost)> = between_atoms.chain(of_parts).collect();
         let mut damage = vec![0.0; mesh.elements.len()];
-        broken
-            .iter()
-            .flatten()
-            .for_each(|&element| damage[element as usize] += 1.0);
+        let elements = lost.iter().flat_map(|(elements, _)| elements);
+        elements.for_each(|&element| damage[element as usize] += 1.0);
+        let broken = lost.iter().filter(|(_, how)| *how == Lost::Broken);
         for (damage, element) in damage.iter_mut().zip(&mesh.elements) {
             *damage /= self.touching[&(element.shape, element.size)];
         }
-        (broken.len() as u64, damage)
+        (broken.count() as u64, damage)
     }
 
     /// Takes in the bonds across interfaces that have opened since.
@@ -106,6 +123,7 @@ mod tests {
     use super::*;
     use crate::material::Material;
     use crate::mesh::solid::bonds::neighbours;
+    use crate::mesh::solid::cut::Cut;
     use crate::mesh::solid::region::{Region, Shape as RegionShape};
     use crate::mesh::solid::sites::{Frame, Outline, Sites};
     use crate::mesh::solid::{Plan, Solid};
@@ -134,6 +152,7 @@ mod tests {
                 outline: Outline::Rhombohedron(EXTENT),
                 frame: Frame::of_blocks(spacing),
                 removed: vec![],
+                cut: None,
             },
             element,
             regions: atoms_from.map(atoms).into_iter().collect(),
@@ -171,6 +190,41 @@ mod tests {
                 .map(|(&element, damage)| damage * touching_bonds(element))
                 .sum();
             assert!((ends - 2.0 * expected as f64).abs() < 1e-6);
+        }
+    }
+
+    #[test]
+    fn what_a_cut_severs_is_damage_at_rest_and_no_bond_that_broke_on_any_mesh() {
+        let cut = Cut {
+            normal: [0, 0, 1],
+            layer: 6,
+            into: [1, 0, 0],
+            end: 6,
+        };
+        // Sites i < 6 below have three neighbours above, fewer at the sides; what leans over the end is whole.
+        let below = (0..EXTENT[0]).flat_map(|i| (0..EXTENT[1]).map(move |j| [i, j, 5]));
+        let is_inside = |site: &[i32; 3]| (0..3).all(|axis| (0..EXTENT[axis]).contains(&site[axis]));
+        let severed = |site: [i32; 3]| {
+            let above = neighbours(site).filter(|other| other[2] == 6).filter(is_inside);
+            above.filter(|other| site[0] + other[0] < 11).count()
+        };
+        let expected: usize = below.map(severed).sum();
+        for (element, atoms_from) in [(6, None), (1, None), (6, Some(5.9 * (2f64 / 3.0).sqrt()))] {
+            let whole = forces(element, atoms_from);
+            let mut mesh = whole.mesh().clone();
+            mesh.sites.cut = Some(cut);
+            let forces = Forces::new(mesh, *whole.material());
+            let mut position = forces.mesh().node_positions();
+            let (broken, damage) = Bonds::new(&forces).broken(&forces, &mut position);
+            assert_eq!(broken, 0);
+            let elements = forces.mesh().elements.iter().zip(damage);
+            let ends: f64 = elements
+                .map(|(&element, damage)| damage * touching_bonds(element))
+                .sum();
+            assert!(
+                (ends - 2.0 * expected as f64).abs() < 1e-6,
+                "{element}: {ends} {expected}"
+            );
         }
     }
 

@@ -112,17 +112,17 @@ pub struct Slot {
     pub to: Given<[Given<u32>; 3]>,
 }
 
-/// A plane whose bonds are severed from a face on.
+/// A plane whose bonds are severed from a face on, over the whole width. Its faces push each other and never bond again.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct SeveredPlane {
     /// The axis whose faces the plane is parallel to.
     pub normal: Given<Axis>,
-    /// Where, from the low face of that axis.
+    /// Where, from the low face of that axis; it comes to lie on the nearest border of elements.
     pub at: Given<Length>,
     /// The face from which it is severed.
     pub from: Given<Face>,
-    /// How far from that face.
+    /// How far from that face; in a solid of blocks it ends at the nearest border of elements.
     pub depth: Given<Length>,
 }
 

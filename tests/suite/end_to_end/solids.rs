@@ -23,6 +23,26 @@ fn workspace(from: &str, to: &str) -> Workspace {
     Workspace::with(&SOLID.replace("study: solid", "study: slab").replace(from, to))
 }
 
+/// The same with a severed plane in place of the slot, whose faces are pushed together.
+fn severed() -> String {
+    let notch = "notch: {blocks: {from: [0, 1, 0], to: [1, 2, 1]}}";
+    let plane = "notch: {plane: {normal: a2, at: 1.25 nm, from: a1-low, depth: 1.25 nm}}";
+    let [pull, push] = [
+        "direction: [0, 1, 0], ramp: initial-velocity",
+        "direction: [0.3, -1, 0], ramp: at-rest",
+    ];
+    let until = "run: {until: {strain: 25 %}";
+    for part in [notch, pull, until] {
+        assert!(SOLID.contains(part), "{part}");
+    }
+    let text = SOLID
+        .replace("study: solid", "study: slab")
+        .replace(notch, plane)
+        .replace(pull, push);
+    text.replace(until, "run: {until: {time: 1.5 ps}")
+        .replace("{snapshots: {every: 10 % strain}}", "{snapshots: {every: 0.5 ps}}")
+}
+
 #[test]
 fn a_study_of_a_solid_becomes_a_report_that_answers() {
     let place = workspace("", "");
@@ -72,7 +92,16 @@ fn a_study_of_a_solid_becomes_a_report_that_answers() {
 #[test]
 fn a_solid_that_is_killed_goes_on_to_the_same_bytes() {
     let places = [(); 2].map(|()| workspace("threads: 1", "threads: 1, checkpoint-every: 1 ms"));
-    let [whole, parted] = &places;
+    goes_on_from_a_kill(&places);
+}
+
+#[test]
+fn a_severed_solid_that_is_killed_goes_on_to_the_same_bytes() {
+    let of_kill = |text: &str| text.replace("threads: 1", "threads: 1, checkpoint-every: 1 ms");
+    goes_on_from_a_kill(&[(); 2].map(|()| Workspace::with(&of_kill(&severed()))));
+}
+
+fn goes_on_from_a_kill([whole, parted]: &[Workspace; 2]) {
     whole.cgaft("run", &["--only", "mixed"]).succeeded();
     let mut program = Program::start(&mut parted.command("run", &["--only", "mixed"]), parted);
     let is_there = || {
@@ -88,12 +117,13 @@ fn a_solid_that_is_killed_goes_on_to_the_same_bytes() {
 
 #[test]
 fn any_number_of_ranks_and_threads_computes_a_solid_to_the_same_bytes() {
-    let place = workspace("", "");
-    let (run, case) = computed(&place);
-    for (count, threads) in [(1, "2"), (2, "1"), (3, "2"), (8, "1")] {
-        let into = place.path(&format!("{count} ranks"));
-        let job = &mut ranks(count, &case, &into, &["--threads", threads]);
-        Program::start(job, &place).wait(PATIENCE).succeeded();
-        assert_same_results(&into, &run);
+    for place in [workspace("", ""), Workspace::with(&severed())] {
+        let (run, case) = computed(&place);
+        for (count, threads) in [(1, "2"), (2, "1"), (3, "2"), (8, "1")] {
+            let into = place.path(&format!("{count} ranks"));
+            let job = &mut ranks(count, &case, &into, &["--threads", threads]);
+            Program::start(job, &place).wait(PATIENCE).succeeded();
+            assert_same_results(&into, &run);
+        }
     }
 }

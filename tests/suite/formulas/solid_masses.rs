@@ -22,6 +22,7 @@ fn mesh(element: u16) -> Solid {
             outline: Outline::Rhombohedron([3 * size, size, 2 * size]),
             frame: Frame::of_blocks(1.0),
             removed: vec![],
+            cut: None,
         },
         element,
         regions: vec![Region {

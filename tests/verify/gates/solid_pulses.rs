@@ -45,6 +45,7 @@ impl Bar {
                 outline: Outline::Box([LENGTH * spacing, across, across]),
                 frame: Frame::along([x, y, z], spacing),
                 removed: vec![],
+                cut: None,
             },
             element: 1,
             regions: vec![],

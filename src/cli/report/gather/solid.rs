@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use crate::analysis::columns::{Columns, SolidSetting};
-use crate::cli::specimen::solid::{kinds, notch};
+use crate::cli::specimen::solid::{intensity, kinds, notch};
 use crate::record::{self, FIELDS_FILE, RecordError, SERIES_FILE};
 use crate::report::solid::specimen::Bar;
 use crate::report::solid::{Crystal, Gauge, Series, Specimen};
@@ -19,6 +19,7 @@ pub fn tell(result: &mut CaseResult, solid: &Solid, laid: &Laid) {
         edges: laid.edges.iter().map(|(name, length)| (*name, length.actual)).collect(),
         kinds: kinds(laid),
         notch: notch(laid),
+        intensity: intensity(laid),
         held: laid.held.clone().unwrap_or_else(|| "nothing".to_owned()),
         loading: laid.loading.clone(),
         direction: laid.direction,

@@ -23,6 +23,7 @@ fn stress(material: Material, size: u16, gradient: [[f64; 3]; 3]) -> [f64; 6] {
         outline: Outline::Rhombohedron([5 * n, 5 * n, 5 * n]),
         frame,
         removed: vec![],
+        cut: None,
     };
     let mesh = Solid::new(&Plan {
         sites,
@@ -159,6 +160,7 @@ fn parting_boxes_of_atoms_along_three_planes_costs_the_surface_energies_of_the_c
                         outline: Outline::Box([8.0, height, width].map(|side| side * material.spacing)),
                         frame: Frame::along([normal, y, z], material.spacing),
                         removed: vec![],
+                        cut: None,
                     },
                     element: 1,
                     regions: vec![],
