@@ -82,7 +82,8 @@ mod tests {
 
     #[test]
     fn on_a_slip_plane_it_lies_near_the_moduli_of_isotropic_means() {
-        // [Barnett1973] for a front along <110> of nearest neighbours, C11 = 2 C12 = 2 C44, beside plane strain of the mean of Voigt.
+        // [Barnett1973] for a front along <110> of nearest neighbours, C11 = 2 C12 = 2 C44, beside plane strain of the mean of
+        // Voigt.
         const NEAR: f64 = 0.15;
         let crystal = cubic(72.0, 36.0, 36.0);
         let (bulk, shear) = (48.0, 0.2 * 36.0 + 0.6 * 36.0);

@@ -5,7 +5,8 @@ use crate::material::Material;
 use crate::mesh::solid::Solid;
 
 /// Forces on the nodes and what every element holds, from every pair of sites within the cutoff: [Deng2011] Eq. (3-31) with
-/// the sums over sites written out. Pairs that a cut severs only repel, and do not count. It takes a time that grows as the square of the number of sites.
+/// the sums over sites written out. Pairs that a cut severs only repel, and do not count. It takes a time that grows as the
+/// square of the number of sites.
 pub fn forces(mesh: &Solid, material: &Material, position: &Planes) -> (Planes, Measure) {
     let mut force = [0, 1, 2].map(|_| vec![0.0; mesh.node_count()]);
     let mut measure = Measure::default();

@@ -46,7 +46,8 @@ impl Bonds {
         }
     }
 
-    /// How many bonds are broken, and of each element the share of the bonds of its sites that are broken or severed. All ranks must ask for it together.
+    /// How many bonds are broken, and of each element the share of the bonds of its sites that are broken or severed. All ranks
+    /// must ask for it together.
     pub fn broken(&mut self, forces: &Forces, position: &mut [Vec<f64>; 3]) -> (u64, Vec<f64>) {
         self.follow(forces);
         let mesh = forces.mesh();
