@@ -11,7 +11,7 @@ pub type Estimate = Expected<Specimen>;
 #[derive(Clone, Debug, PartialEq)]
 pub enum Specimen {
     Slab(slab::estimate::Specimen),
-    Solid(solid::Specimen),
+    Solid(Box<solid::Specimen>),
 }
 
 impl Specimen {
@@ -32,6 +32,10 @@ impl Specimen {
     }
 }
 
+fn of_solid(specimen: solid::Specimen) -> Specimen {
+    Specimen::Solid(Box::new(specimen))
+}
+
 /// Estimates cases, and remembers what many cases of one study have in common.
 #[derive(Default)]
 pub struct Estimator {
@@ -44,7 +48,7 @@ impl Estimator {
     pub fn estimate(&mut self, case: &Case) -> Result<Estimate, SetupError> {
         match &case.body {
             Body::Slab(slab) => Ok(self.slabs.estimate(case, slab)?.of(Specimen::Slab)),
-            Body::Solid(solid) => Ok(self.solids.estimate(case, solid)?.of(Specimen::Solid)),
+            Body::Solid(solid) => Ok(self.solids.estimate(case, solid)?.of(of_solid)),
         }
     }
 
@@ -52,7 +56,7 @@ impl Estimator {
     pub fn specimen(&mut self, case: &Case) -> Result<Specimen, SetupError> {
         match &case.body {
             Body::Slab(slab) => self.slabs.specimen(case, slab).map(Specimen::Slab),
-            Body::Solid(solid) => self.solids.specimen(case, solid).map(Specimen::Solid),
+            Body::Solid(solid) => self.solids.specimen(case, solid).map(of_solid),
         }
     }
 }
