@@ -17,7 +17,9 @@ use cgaft::mesh::solid::{Plan, Solid as Mesh};
 use cgaft::potential::{AtCutoff, CutPotential, Interaction};
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::solid::{Experiment, Extension, Gauge, Kept, Row};
-use cgaft::solver::{Cost, Ending, Moment, Observer, Progress, Settings, Solid, Solver, SolverError, TimeStep, Until};
+use cgaft::solver::{
+    Cost, Ending, Moment, Motion, Observer, Progress, Settings, Solid, Solver, SolverError, TimeStep, Until,
+};
 
 use super::specimens::LENNARD_JONES;
 
@@ -201,8 +203,8 @@ impl Observer<Solid, 3> for Keeper {
         self.snapshots.push(moment.step);
         Ok(())
     }
-    fn checkpoint(&mut self, checkpoint: &Checkpoint<Kept, 3>, _: &Cost) -> Result<(), Infallible> {
-        self.checkpoints.push(checkpoint.clone());
+    fn checkpoint(&mut self, checkpoint: &Checkpoint<Kept, 3>, motion: &Motion<3>, _: &Cost) -> Result<(), Infallible> {
+        self.checkpoints.push(motion.complete(checkpoint));
         Ok(())
     }
     fn progress(&mut self, progress: &Progress) {
@@ -294,8 +296,13 @@ fn a_run_from_a_checkpoint_ends_with_the_same_bits() {
                 fn snapshot(&mut self, moment: &Moment<Solid, 3>) -> Result<(), Infallible> {
                     self.0.snapshot(moment)
                 }
-                fn checkpoint(&mut self, checkpoint: &Checkpoint<Kept, 3>, cost: &Cost) -> Result<(), Infallible> {
-                    self.0.checkpoint(checkpoint, cost)
+                fn checkpoint(
+                    &mut self,
+                    checkpoint: &Checkpoint<Kept, 3>,
+                    motion: &Motion<3>,
+                    cost: &Cost,
+                ) -> Result<(), Infallible> {
+                    self.0.checkpoint(checkpoint, motion, cost)
                 }
                 fn progress(&mut self, _: &Progress) {}
             }

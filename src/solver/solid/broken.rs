@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::domain::Domain;
 use crate::forces::solid::Forces;
 use crate::lattice::fcc::NEAREST;
+use crate::mesh::solid::Solid;
 use crate::mesh::solid::bonds::{self, End, place_of, plus};
 use crate::mesh::solid::element::{Element, Shape};
 
@@ -18,6 +19,8 @@ use crate::mesh::solid::element::{Element, Shape};
 pub struct Bonds {
     /// Those of atoms, of parts with them and with parts of other sizes, and those across interfaces that have opened.
     single: bonds::Bonds,
+    /// Whether there are parts beside those of other sizes.
+    has_unlike_parts: bool,
     /// The interfaces whose bonds are among them, ascending.
     opened: Vec<u32>,
     /// Bonds that touch an element of each shape and size.
@@ -32,18 +35,25 @@ impl Bonds {
             let kind = (element.shape, element.size);
             touching.entry(kind).or_insert_with(|| touching_bonds(*element));
         }
+        let single = bonds::Bonds::new(mesh, &forces.beside_others());
         Self {
-            single: bonds::Bonds::new(mesh, &forces.beside_others()),
+            has_unlike_parts: !single.of_parts.is_empty(),
+            single,
             opened: Vec::new(),
             touching,
         }
     }
 
-    /// How many bonds are broken, and of each element the share of the bonds of its sites. All ranks must ask for it together.
-    pub fn broken(&mut self, forces: &Forces, position: &mut [Vec<f64>; 3]) -> (u64, Vec<f64>) {
+    /// The elements at both ends of every bond that is broken, in any order. All ranks must ask for it together, and get those of
+    /// all.
+    pub fn broken(&mut self, forces: &Forces, position: &mut [Vec<f64>; 3]) -> Vec<[u32; 2]> {
         self.follow(forces);
         let mesh = forces.mesh();
-        share(forces.domain(), position);
+        let domain = forces.domain();
+        if mesh.atom_count() > 0 || self.has_unlike_parts {
+            share(domain, position);
+        }
+        let is_mine = |element: usize| domain.is_mine(element);
         let longest = forces.material().breaking_length();
         let is_broken = |a: [f64; 3], b: [f64; 3]| {
             let squared: f64 = (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum();
@@ -59,20 +69,29 @@ impl Bonds {
             broken.map(|other| [number(atom), number(other as usize)]).collect()
         };
         let at = |end: End| place_of(mesh, end, position);
-        let between_atoms = (0..self.single.atom_count()).into_par_iter().flat_map_iter(of_atom);
+        let between_atoms = domain.atoms().into_par_iter().flat_map_iter(of_atom);
         let of_parts = self.single.of_parts.par_iter();
+        let of_parts = of_parts.filter(|[a, _]| is_mine(a.0 as usize));
         let of_parts = of_parts.filter(|[a, b]| is_broken(at(*a), at(*b)));
         let of_parts = of_parts.map(|[a, b]| [a.0, b.0]);
-        let broken: Vec<[u32; 2]> = between_atoms.chain(of_parts).collect();
+        let mine: Vec<[u32; 2]> = between_atoms.chain(of_parts).collect();
+        domain.ranks().join(mine.into_flattened()).as_chunks().0.to_vec()
+    }
+
+    /// Of each element the share of the bonds of its sites that are broken.
+    pub fn damage(&self, mesh: &Solid, broken: &[[u32; 2]]) -> Vec<f64> {
         let mut damage = vec![0.0; mesh.elements.len()];
-        broken
-            .iter()
-            .flatten()
-            .for_each(|&element| damage[element as usize] += 1.0);
-        for (damage, element) in damage.iter_mut().zip(&mesh.elements) {
+        for &element in broken.iter().flatten() {
+            damage[element as usize] += 1.0;
+        }
+        for (damage, element) in damage
+            .iter_mut()
+            .zip(&mesh.elements)
+            .filter(|(damage, _)| **damage > 0.0)
+        {
             *damage /= self.touching[&(element.shape, element.size)];
         }
-        (broken.len() as u64, damage)
+        damage
     }
 
     /// Takes in the bonds across interfaces that have opened since.
@@ -156,7 +175,11 @@ mod tests {
             let mut force = position.clone();
             let mut bonds = Bonds::new(&forces);
             forces.compute(&mut position, &mut force).unwrap();
-            assert_eq!(bonds.broken(&forces, &mut position).0, 0, "{element}, {atoms_from:?}");
+            assert_eq!(
+                bonds.broken(&forces, &mut position).len(),
+                0,
+                "{element}, {atoms_from:?}"
+            );
             for number in 0..forces.mesh().elements.len() {
                 if forces.mesh().elements[number].anchor[2] >= 6 {
                     let nodes: Vec<usize> = forces.mesh().nodes_of(number).collect();
@@ -164,8 +187,9 @@ mod tests {
                 }
             }
             forces.compute(&mut position, &mut force).unwrap();
-            let (broken, damage) = bonds.broken(&forces, &mut position);
-            assert_eq!(broken as usize, expected, "{element}, {atoms_from:?}");
+            let broken = bonds.broken(&forces, &mut position);
+            let damage = bonds.damage(forces.mesh(), &broken);
+            assert_eq!(broken.len(), expected, "{element}, {atoms_from:?}");
             let elements = forces.mesh().elements.iter().zip(damage);
             let ends: f64 = elements
                 .map(|(&element, damage)| damage * touching_bonds(element))
