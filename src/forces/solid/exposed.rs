@@ -79,12 +79,15 @@ impl Sides {
         let directions = Directions::new(&scene.mesh.sites.frame);
         let is_mine = |part: u32| domain.is_mine(part as usize);
         let extents = |part: u32| extents_of(scene, &directions, part);
-        let own = self
-            .parts
-            .iter()
-            .filter(|&&part| is_mine(part))
-            .map(|&part| extents(part));
-        let own = own.reduce(|all, one| all.and(&one));
+        let own = self.parts.iter().filter(|&&part| is_mine(part));
+        let own = own.map(|&part| extents(part)).reduce(|all, one| all.and(&one));
+        // Atoms of this rank meet the sites of others' parts, too.
+        let [_, atoms] = domain.nodes();
+        let of_atoms = (!atoms.is_empty()).then(|| {
+            let place = |node: usize| scene.position.each_ref().map(|plane| plane[node]);
+            Extents::of(&directions, atoms.map(place))
+        });
+        let own = own.into_iter().chain(of_atoms).reduce(|all, one| all.and(&one));
         let is_near = |part: u32| is_mine(part) || own.is_some_and(|own| !own.are_apart(&extents(part), radius));
         self.parts = self.parts.into_par_iter().filter(|&part| is_near(part)).collect();
         let is_kept = |part: u32| self.parts.binary_search(&part).is_ok();
