@@ -19,16 +19,17 @@ mod performance {
     pub mod peer;
     pub mod ranks;
     pub mod roofline;
+    pub mod share;
     pub mod specimens;
     pub mod steps;
 }
 
-use performance::{clock, commands, demand, growth, model_a, page, peer, ranks, roofline, steps};
+use performance::{clock, commands, demand, growth, model_a, page, peer, ranks, roofline, share, steps};
 
 /// A part, and how it is measured.
 type Part = (&'static str, fn());
 
-const PARTS: [Part; 9] = [
+const PARTS: [Part; 10] = [
     ("steps", steps::measure),
     ("ranks", ranks::measure),
     ("peer", peer::measure),
@@ -37,6 +38,7 @@ const PARTS: [Part; 9] = [
     ("commands", commands::measure),
     ("model-a", model_a::measure),
     ("memory", model_a::measure_memory_of_atoms),
+    ("share", share::measure),
     ("roofline", roofline::measure),
 ];
 

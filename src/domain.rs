@@ -11,6 +11,7 @@ mod halo;
 mod messages;
 #[cfg(feature = "mpi")]
 mod mpi;
+mod planes;
 mod processor;
 mod sums;
 
@@ -182,6 +183,11 @@ impl Domain {
         ]
     }
 
+    /// Whether this rank moves a node.
+    pub fn moves(&self, node: usize) -> bool {
+        self.nodes().iter().any(|mine| mine.contains(&node))
+    }
+
     pub fn is_mine(&self, element: usize) -> bool {
         self.elements().iter().any(|mine| mine.contains(&element))
     }
@@ -234,39 +240,6 @@ impl Domain {
         let levels = self.heard >> FIRST_LEVEL;
         self.heard &= (1 << FIRST_LEVEL) - 1;
         u64::BITS - levels.leading_zeros()
-    }
-
-    /// Brings the numbers of all nodes to the first rank, each from the rank that computes it.
-    pub fn gather_nodes(&self, plane: &mut [f64]) {
-        let of_groups = &mut plane[..self.grouped_nodes()];
-        self.ranks.gather(of_groups, &self.nodes);
-        self.gather_atoms(plane);
-    }
-
-    /// The same of the atoms alone.
-    pub fn gather_atoms(&self, plane: &mut [f64]) {
-        self.ranks.gather(&mut plane[self.grouped_nodes()..], &self.atoms);
-    }
-
-    /// Brings the numbers of all nodes to all ranks, each from the rank that computes it.
-    pub fn share_nodes(&self, plane: &mut [f64]) {
-        let (of_groups, of_atoms) = plane.split_at_mut(self.grouped_nodes());
-        self.ranks.share(of_groups, &self.nodes);
-        self.ranks.share(of_atoms, &self.atoms);
-    }
-
-    /// Brings the numbers of all elements to the first rank.
-    pub fn gather_elements(&self, plane: &mut [f64]) {
-        let (of_groups, of_atoms) = plane.split_at_mut(self.grouped_count());
-        self.ranks.gather(of_groups, &self.grouped);
-        self.ranks.gather(of_atoms, &self.atoms);
-    }
-
-    /// Brings the numbers of all elements to all ranks.
-    pub fn share_elements(&self, plane: &mut [f64]) {
-        let (of_groups, of_atoms) = plane.split_at_mut(self.grouped_count());
-        self.ranks.share(of_groups, &self.grouped);
-        self.ranks.share(of_atoms, &self.atoms);
     }
 
     /// How many nodes elements in groups have.

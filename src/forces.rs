@@ -16,6 +16,7 @@ mod close;
 mod contact;
 mod interface;
 mod kinds;
+mod loosened;
 mod maps;
 mod measure;
 pub mod referee;
@@ -45,7 +46,7 @@ use crate::domain::{Domain, Halo, Ranks};
 use crate::lattice::triangular;
 use crate::material::Material;
 use crate::mesh::Mesh;
-use crate::mesh::interfaces::Interfaces;
+use crate::mesh::interfaces::{Interfaces, Kind, Survey, Told};
 use bulk::BulkBonds;
 use certified::Certificate;
 use close::CloseBonds;
@@ -53,6 +54,7 @@ use contact::Contacts;
 use contact::lattice::AtomLattice;
 use interface::{IntactLimit, State};
 use kinds::SampledStrings;
+use loosened::Loosened;
 use pulp::Arch;
 use tile::Tile;
 
@@ -91,16 +93,16 @@ pub struct Forces {
     interfaces: Interfaces,
     strings: SampledStrings,
     bulk: BulkBonds,
-    /// How the interfaces stand; a state is never left for a tighter one.
+    /// How the interfaces of my triangles stand; a state is never left for a tighter one.
     states: Vec<State>,
     atoms: AtomLattice,
     contacts: Contacts,
     tiles: Vec<Tile>,
     limit: IntactLimit,
     close_bonds: CloseBonds,
-    /// Interfaces that are not tight, ascending.
-    loosened: Vec<u32>,
-    /// Interfaces of my triangles that are tested in every step.
+    /// Interfaces of all ranks that are not tight, ascending.
+    loosened: Vec<Loosened>,
+    /// Places of the interfaces of my triangles that are tested in every step.
     watched: Vec<u32>,
     /// Triangles of each tile whose forces nothing but the tile can change, and all others of mine, ascending.
     certain: Vec<Vec<Range<usize>>>,
@@ -147,28 +149,31 @@ impl Forces {
     /// The part of this rank in the forces that all ranks compute together.
     pub fn shared(ranks: Ranks, mesh: Mesh, material: Material, summation: Summation) -> Self {
         let listed = Self::listed(&material);
-        let interfaces = Interfaces::new(&mesh, listed);
-        let state = |severed: bool| if severed { State::Open } else { State::Tight };
-        let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
         let bulk = BulkBonds::new(&mesh, listed, summation);
         let limit = IntactLimit::new(&material, triangular::next_length(listed));
+        let atoms = AtomLattice::new(&mesh, listed, limit.regular);
+        let [rank, count] = [ranks.rank(), ranks.count()];
+        // Before anybody knows who computes what, each looks at an equal share.
+        let share = rank * mesh.triangles / count..(rank + 1) * mesh.triangles / count;
+        let mut survey = Survey::new(&mesh, listed, share);
+        let told = of_all_ranks(ranks, survey.tell());
+        let start = Instant::now();
+        let domain = Domain::new(ranks, &mesh, share::costs(&mesh, &told.exposed));
+        let cut = start.elapsed();
+        let interfaces = Interfaces::of_triangles(&mesh, survey, told, domain.grouped());
+        let state = |severed: bool| if severed { State::Open } else { State::Tight };
+        let states = interfaces.pairs.iter().map(|pair| state(pair.severed)).collect();
         let certificate = limit.untouched.map(|regular| Certificate {
             material: &material,
             regular,
         });
         let strings = SampledStrings::new(&interfaces, summation, certificate);
-        let atoms = AtomLattice::new(&mesh, listed, limit.regular);
         let start = Instant::now();
-        let domain = Domain::new(ranks, &mesh, share::costs(&mesh, &interfaces));
         let bordering = share::bordering(&domain, &mesh, &interfaces, &atoms);
         let halo = Halo::ask(&domain, &mesh, &bordering);
-        let first_cut = start.elapsed();
+        let first_cut = cut + start.elapsed();
         let tiles = tile::tiles(&mesh, &interfaces, &strings, domain.grouped());
-        let reference = mesh.node_positions();
-        let largest = reference
-            .iter()
-            .flatten()
-            .fold(0.0, |most: f64, place| most.max(place.abs()));
+        let largest = mesh.farthest();
         let mut forces = Self {
             mesh,
             halo,
@@ -204,9 +209,8 @@ impl Forces {
             spent_by_all: Vec::new(),
         };
         forces.look_at(std::iter::empty());
-        let severed = (0..).zip(&forces.interfaces.pairs).filter(|(_, pair)| pair.severed);
-        let severed: Vec<u32> = severed.map(|(number, _)| number).collect();
-        forces.watch(&severed);
+        let places = 0..forces.interfaces.pairs.len();
+        forces.loosen(places.filter(|&place| forces.interfaces.pairs[place].severed).collect());
         forces
     }
 
@@ -219,26 +223,13 @@ impl Forces {
         &self.mesh
     }
 
+    /// The mesh alone.
+    pub fn into_mesh(self) -> Mesh {
+        self.mesh
+    }
+
     pub fn material(&self) -> &Material {
         &self.material
-    }
-
-    /// Numbers of the interfaces that have left the intact path, ascending: the only memory that a restart must keep.
-    pub fn open_interfaces(&self) -> Vec<u32> {
-        let loosened = self.loosened.iter().copied();
-        loosened.filter(|&number| self.is_open(number as usize)).collect()
-    }
-
-    /// Puts back what [`Self::open_interfaces`] gave.
-    pub fn restore_open_interfaces(&mut self, open: &[u32]) {
-        self.states.fill(State::Tight);
-        open.iter()
-            .for_each(|&number| self.states[number as usize] = State::Open);
-        self.loosened.clear();
-        self.watched.clear();
-        self.watch(open);
-        self.atoms.calm();
-        self.contacts.forget();
     }
 
     /// Keeps the forces on these nodes up to date in every step, and on the others of their groups of triangles.
@@ -256,10 +247,6 @@ impl Forces {
         let ranges = atoms.chunk_by(|a, b| *b == a + 1);
         self.looked_at_atoms
             .extend(ranges.map(|range| range[0]..range[range.len() - 1] + 1));
-    }
-
-    pub fn interface_count(&self) -> usize {
-        self.states.len()
     }
 
     /// Seconds that the first cut of the specimen took: who computes what, and who tells whom.
@@ -290,24 +277,6 @@ impl Forces {
         self.states[interface] == State::Open
     }
 
-    /// Takes note of interfaces that have changed, and of those that must be tested in every step from now on: those of
-    /// triangles with an open interface. What follows from regular bonds ends where a crack begins.
-    fn watch(&mut self, changed: &[u32]) {
-        let open = changed.iter().filter(|&&number| self.is_open(number as usize));
-        let beside = open.flat_map(|&number| self.interfaces.pairs[number as usize].both());
-        let of_those = beside.flat_map(|triangle| self.interfaces.of(triangle as usize));
-        let newly_watched: Vec<u32> = of_those
-            .copied()
-            .filter(|&number| self.is_mine(number as usize))
-            .collect();
-        let mut watched = std::mem::take(&mut self.watched);
-        include(&mut watched, newly_watched);
-        watched.retain(|&number| !self.is_open(number as usize));
-        self.watched = watched;
-        include(&mut self.loosened, changed.to_vec());
-        self.certain_is_current = false;
-    }
-
     /// What bonds closer than in a regular lattice do.
     pub fn close_bonds(&self) -> &CloseBonds {
         &self.close_bonds
@@ -316,13 +285,22 @@ impl Forces {
     pub fn close_bonds_mut(&mut self) -> &mut CloseBonds {
         &mut self.close_bonds
     }
+}
 
-    /// Whether an interface is one of my triangles'.
-    fn is_mine(&self, interface: usize) -> bool {
-        let triangles = self.domain.grouped();
-        let both = self.interfaces.pairs[interface].both();
-        both.iter().any(|&triangle| triangles.contains(&(triangle as usize)))
+/// What the surveys of all ranks have told.
+fn of_all_ranks(ranks: Ranks, told: Told) -> Told {
+    if ranks.count() == 1 {
+        return told;
     }
+    let kinds = ranks.join(told.kinds.iter().flat_map(|kind| kind.0).collect());
+    let (kinds, _) = kinds.as_chunks();
+    let counts = ranks.merge(told.counts.as_flattened());
+    let all = Told {
+        exposed: ranks.join(told.exposed),
+        counts: counts.as_chunks().0.to_vec(),
+        kinds: Vec::new(),
+    };
+    all.with_kinds(kinds.iter().copied().map(Kind))
 }
 
 /// Adds numbers to ascending ones, which few of them mostly are not among.

@@ -147,22 +147,30 @@ impl Mesh {
 
     /// Reference positions of the nodes, x and y, nm.
     pub fn node_positions(&self) -> [Vec<f64>; 2] {
+        self.node_positions_of(&[0..self.elements.len()])
+    }
+
+    /// The same of the nodes of some ranges of elements; the others are untouched zeros, which take no memory.
+    pub fn node_positions_of(&self, elements: &[Range<usize>]) -> [Vec<f64>; 2] {
         let [mut x, mut y] = [0, 1].map(|_| vec![0.0; self.node_count()]);
-        for (number, element) in self.elements.iter().enumerate() {
-            for (node, corner) in self.nodes_of(number).zip(element.corners()) {
+        for number in elements.iter().cloned().flatten() {
+            for (node, corner) in self.nodes_of(number).zip(self.elements[number].corners()) {
                 [x[node], y[node]] = self.reference(corner);
             }
         }
         [x, y]
     }
 
+    /// Largest coordinate of a node in its reference position, nm.
+    pub fn farthest(&self) -> f64 {
+        let corners = self.elements.iter().flat_map(Element::corners);
+        let places = corners.flat_map(|corner| self.reference(corner));
+        places.fold(0.0, |most, place| most.max(place.abs()))
+    }
+
     /// Lumped mass of every node in site masses.
     pub fn lumped_masses(&self) -> Vec<f64> {
-        let mut masses = vec![1.0; self.node_count()];
-        for group in self.groups.all() {
-            masses[group.nodes()].fill(self.elements[group.elements.start].lumped_mass());
-        }
-        masses
+        grouped::masses_of(self, &[0..self.elements.len()])
     }
 
     /// The element that carries a site; `None` where there is none.
@@ -232,6 +240,10 @@ impl Grouped for Mesh {
     fn group(&self, number: usize) -> [Range<usize>; 2] {
         let group = &self.groups.all()[number];
         [group.elements.clone(), group.nodes()]
+    }
+
+    fn lumped_mass(&self, element: usize) -> f64 {
+        self.elements[element].lumped_mass()
     }
 
     fn mass_couplings(&self) -> Vec<MassCoupling> {

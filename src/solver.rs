@@ -24,7 +24,7 @@ pub use clock::Clock;
 pub use cost::{Cost, Phase};
 pub use error::{RunError, SolverError};
 pub use ledger::{Balance, Ledger};
-pub use observer::{Moment, Observer, Progress};
+pub use observer::{Moment, Motion, Observer, Progress};
 pub use slab::{Reading, Slab, j_integral, site_volume};
 pub use solid::Solid;
 pub use time_step::TimeStep;
@@ -33,7 +33,7 @@ pub use until::{Ending, Until};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
-use crate::domain::{Call, Ranks};
+use crate::domain::{Call, Domain, Ranks};
 use crate::forces::Summation;
 use crate::loading::Load;
 use crate::relaxation::RelaxationError;
@@ -104,6 +104,16 @@ pub struct Solver<B: Instruments<D> = Slab, const D: usize = 2> {
     cost: Cost,
 }
 
+/// Every rank carries the whole specimen to rest, and learns where all nodes are and which are free.
+fn share_what_rests<const D: usize>(domain: &Domain, state: &mut State<D>) {
+    let planes = state
+        .position
+        .iter_mut()
+        .chain(&mut state.mobility)
+        .chain([&mut state.mass]);
+    planes.for_each(|plane| domain.share_nodes(plane));
+}
+
 impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     /// A body at the start of its loading, whose set-up began at `start`.
     pub fn of(mut body: B, mut state: State<D>, settings: Settings, mut start: Instant) -> Result<Self, SolverError> {
@@ -114,11 +124,21 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         let stability_limit = body.stability_limit(&state);
         let longest = body.load().longest_step(body.spacing());
         let time_step = settings.time_step.choose(stability_limit, longest)?;
-        let held = body.load().held().into_iter();
-        let held = held.map(|node| state.kinetic_energy_of(node as usize)).sum();
-        let mut ledger = Ledger::new(body.stored(), [state.kinetic_energy(), held], body.jump_at_cutoff());
+        let domain = body.domain();
+        let [kinetic] = domain.sum_nodes(|node| [state.kinetic_energy_of(node)]);
+        let of_held = body
+            .load()
+            .held()
+            .into_iter()
+            .map(|node| match domain.moves(node as usize) {
+                true => state.kinetic_energy_of(node as usize),
+                false => 0.0,
+            });
+        let held = domain.ranks().merge(&of_held.collect::<Vec<_>>()).into_iter().sum();
+        let mut ledger = Ledger::new(body.stored(), [kinetic, held], body.jump_at_cutoff());
         if let Some(noise) = settings.noise {
-            ledger.put_in_by_noise(noise.most_energy(&state, body.spacing(), stability_limit));
+            let [mass] = domain.sum_nodes(|node| [state.mass[node]]);
+            ledger.put_in_by_noise(noise.most_energy::<D>(mass, body.spacing(), stability_limit));
         }
         let probes = Schedule::new(settings.probe_every);
         let snapshots = Schedule::new(settings.snapshot_every.unwrap_or(f64::INFINITY));
@@ -150,6 +170,11 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
 
     pub fn body(&self) -> &B {
         &self.body
+    }
+
+    /// All that is left of it where its motion is no longer wanted.
+    pub fn into_body(self) -> B {
+        self.body
     }
 
     pub fn mesh(&self) -> &B::Mesh {
@@ -257,7 +282,8 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             noise.displace(&mut self.state, self.body.spacing(), |node| self.body.site_of(node));
         }
         self.compute(true).map_err(SolverError::NoStart)?;
-        self.ledger.begin(self.body.stored(), self.state.kinetic_energy());
+        let [kinetic] = (self.body.domain()).sum_nodes(|node| [self.state.kinetic_energy_of(node)]);
+        self.ledger.begin(self.body.stored(), kinetic);
         self.stability_limit = self.body.stability_limit(&self.state);
         let longest = self.body.load().longest_step(self.body.spacing());
         let chosen = self.settings.time_step.choose(self.stability_limit, longest)?;
@@ -274,25 +300,15 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     fn save<O: Observer<B, D>>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         self.settle();
         let mut clock = Instant::now();
-        self.gather_motion();
         self.cost.core_seconds = self.ranks().core_seconds();
-        // The state is lent to the checkpoint: a copy would be most of what a run of atoms keeps in memory.
-        let mut checkpoint = self.checkpoint_without_motion();
-        if self.ranks().is_first() {
-            checkpoint.lend(&mut self.state);
-            let saved = observer.checkpoint(&checkpoint, &self.cost());
-            checkpoint.lend(&mut self.state);
-            saved.map_err(RunError::Output)?;
+        let checkpoint = self.checkpoint_without_motion();
+        let motion = self.motion();
+        match self.ranks().is_first() {
+            true => (observer.checkpoint(&checkpoint, &motion, &self.cost())).map_err(RunError::Output)?,
+            false => motion.planes().for_each(drop),
         }
         self.cost.book(Phase::Output, &mut clock);
         Ok(())
-    }
-
-    /// Brings positions and velocities of all nodes to the first rank.
-    fn gather_motion(&mut self) {
-        let State { position, velocity, .. } = &mut self.state;
-        let planes = position.iter_mut().chain(velocity);
-        planes.for_each(|plane| self.body.domain().gather_nodes(plane));
     }
 
     fn ranks(&self) -> Ranks {

@@ -10,7 +10,7 @@ use std::ops::Range;
 
 use crate::lanes;
 use crate::mesh::Mesh;
-use crate::mesh::grouped::{Grouped, MassCoupling};
+use crate::mesh::grouped::{self, Grouped, MassCoupling};
 
 pub use leap::Leap;
 pub use noise::Noise;
@@ -60,23 +60,36 @@ impl Coupled {
 }
 
 impl<const D: usize> State<D> {
-    /// Nodes at rest at these positions, free to move, with lumped masses.
+    /// Nodes at rest at these positions, free to move, with lumped masses. Nodes without mass are those of other ranks: what is
+    /// kept of them are untouched zeros, which take no memory.
     pub fn at_rest(position: [Vec<f64>; D], mass: Vec<f64>) -> Self {
         let nodes = mass.len();
-        let free: Vec<f64> = mass.iter().map(|mass| 1.0 / mass).collect();
         let zeros = || array::from_fn(|_| vec![0.0; nodes]);
+        let free = || {
+            let mut free = vec![0.0; nodes];
+            let own = mass.iter().zip(&mut free).filter(|(mass, _)| **mass > 0.0);
+            own.for_each(|(mass, free)| *free = 1.0 / mass);
+            free
+        };
+        let mobility = array::from_fn(|_| free());
         Self {
             position,
             velocity: zeros(),
             force: zeros(),
             mass,
             coupled: Vec::new(),
-            mobility: array::from_fn(|_| free.clone()),
+            mobility,
         }
     }
 
-    /// Gives the elements of a mesh this share of the consistent mass matrix; the rest of it stays lumped. All nodes become
-    /// free.
+    /// Whether a node is there from the start, and not on another rank.
+    #[inline(always)]
+    pub fn has(&self, node: usize) -> bool {
+        self.mass[node] > 0.0
+    }
+
+    /// Gives the elements of a mesh this share of the consistent mass matrix; the rest of it stays lumped. All nodes that are
+    /// there become free.
     pub fn couple_masses(&mut self, mesh: &impl Grouped, consistent: f64) {
         let groups = mesh.mass_couplings().into_iter().enumerate();
         let coupled = groups.map(|(number, coupling)| Coupled {
@@ -86,6 +99,9 @@ impl<const D: usize> State<D> {
         self.coupled = coupled.collect();
         for Coupled { nodes, coupling } in &self.coupled {
             let answer = coupling.answer();
+            if self.mass[nodes.start] == 0.0 {
+                continue;
+            }
             for node in nodes.clone() {
                 let mobility = 1.0 / (self.mass[node] * answer.mass);
                 self.mobility.iter_mut().for_each(|plane| plane[node] = mobility);
@@ -148,8 +164,13 @@ impl State {
     /// The nodes of a mesh at rest in the perfect lattice, with the masses of their sites (eV ps^2/nm^2 each), of which those of
     /// triangles have a share of the consistent mass matrix.
     pub fn of_mesh(mesh: &Mesh, site_mass: f64, consistent: f64) -> Self {
-        let masses = mesh.lumped_masses().into_iter().map(|mass| mass * site_mass);
-        let mut state = Self::at_rest(mesh.node_positions(), masses.collect());
+        Self::of_elements(mesh, &[0..mesh.elements.len()], site_mass, consistent)
+    }
+
+    /// The same of some ranges of elements, which start and end with groups or are atoms.
+    pub fn of_elements(mesh: &Mesh, elements: &[Range<usize>], site_mass: f64, consistent: f64) -> Self {
+        let masses = grouped::masses_of(mesh, elements);
+        let mut state = Self::at_rest(mesh.node_positions_of(elements), times(masses, site_mass));
         if consistent > 0.0 {
             state.couple_masses(mesh, consistent);
         }
@@ -172,6 +193,15 @@ impl State {
         };
         mesh.groups.all().iter().map(|group| of_group(group.nodes())).collect()
     }
+}
+
+/// Masses in another unit. Those of nodes of other ranks stay untouched.
+pub fn times(mut masses: Vec<f64>, unit: f64) -> Vec<f64> {
+    masses
+        .iter_mut()
+        .filter(|mass| **mass > 0.0)
+        .for_each(|mass| *mass *= unit);
+    masses
 }
 
 /// How the nodes of a group of triangles answer to forces.

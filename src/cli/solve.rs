@@ -256,7 +256,7 @@ fn compute(
         stability_limit_ps: finished.stability_limit,
         energy_error_relative: finished.energy_error,
         closest_approach_spacings: finished.closest_approach,
-        peak_memory_bytes: setup::memory::peak(),
+        peak_memory_bytes: setup::memory::peak().map(|bytes| ranks.largest(bytes as f64) as u64),
         core_seconds: Some(finished.cost.core_seconds),
         cost: finished.cost.phases,
         messages: finished.messages.map(|messages| store::MessageCost {

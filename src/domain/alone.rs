@@ -90,8 +90,8 @@ impl Ranks {
     /// Sends numbers from the first rank to the second and back.
     pub(super) fn to_and_fro(self, _: &mut [f64]) {}
 
-    /// Brings all ranks' parts of a plane to the first.
-    pub(super) fn gather(self, _: &mut [f64], _: &[usize]) {}
+    /// Puts together the parts of all ranks, each of which gives its own, on the first.
+    pub(super) fn gather(self, _: &[f64], _: &mut [f64], _: &[usize]) {}
 
     /// Brings all ranks' parts of a plane to all.
     pub(super) fn share(self, _: &mut [f64], _: &[usize]) {}

@@ -240,18 +240,17 @@ impl Ranks {
         }
     }
 
-    /// Brings all ranks' parts of a plane, which start there, to the first.
-    pub(super) fn gather(self, plane: &mut [f64], starts: &[usize]) {
+    /// Puts together the parts of all ranks, each of which gives its own, on the first; they start there.
+    pub(super) fn gather(self, mine: &[f64], plane: &mut [f64], starts: &[usize]) {
         if self.is_alone() {
             return;
         }
-        let mine = plane[starts[self.rank]..starts[self.rank + 1]].to_vec();
         let world = world_of_all();
         let first = world.process_at_rank(0);
         if self.is_first() {
-            first.gather_varcount_into_root(&mine[..], &mut parts(plane, starts));
+            first.gather_varcount_into_root(mine, &mut parts(plane, starts));
         } else {
-            first.gather_varcount_into(&mine[..]);
+            first.gather_varcount_into(mine);
         }
     }
 

@@ -67,7 +67,7 @@ impl Forces {
         }
         let watched = self.watched.iter();
         let of_watched = watched.flat_map(|&number| self.interfaces.pairs[number as usize].both());
-        let mut uncertain = contact::searched(&self.mesh, &self.interfaces, &self.loosened);
+        let mut uncertain = contact::searched(&self.interfaces, &self.loosened);
         include(&mut uncertain, of_watched.collect());
         let mine = self.domain.grouped();
         uncertain.retain(|&triangle| mine.contains(&(triangle as usize)));

@@ -28,16 +28,13 @@ impl Forces {
 
     /// Atoms that may have irregular bonds, and triangles that border atoms or interfaces that are not intact.
     fn elements_that_meet_others(&self) -> Vec<u32> {
-        let loosened = self.loosened.iter().map(|&number| number as usize);
-        let open = loosened.filter(|&number| self.is_open(number));
-        let beside = open.flat_map(|number| {
-            [
-                self.interfaces.pairs[number].first,
-                self.interfaces.pairs[number].second,
-            ]
-        });
+        let beside = self
+            .loosened
+            .iter()
+            .filter(|known| known.is_open())
+            .flat_map(|known| known.both);
         let has_atoms = self.mesh.triangles < self.mesh.elements.len();
-        let exposed = self.interfaces.exposed.iter().copied().filter(|_| has_atoms);
+        let exposed = self.interfaces.exposed().iter().copied().filter(|_| has_atoms);
         let mut triangles: Vec<u32> = exposed.chain(beside).collect();
         triangles.sort_unstable();
         triangles.dedup();

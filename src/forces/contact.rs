@@ -39,8 +39,9 @@ pub struct Contacts {
     /// Triangle and local coordinates of the sites that triangles carry, by triangle; all atoms follow by number.
     carrier: Vec<u32>,
     local: Vec<[i16; 2]>,
-    /// Where each triangle's sites start, and their total at the end. Empty: nothing has been searched yet.
-    of_triangle: Vec<u32>,
+    /// The triangles that have sites, ascending, and where those of each start; one past all with their total at the end. Empty:
+    /// nothing has been searched yet.
+    of_triangle: Vec<[u32; 2]>,
     /// How many sites each stands for; empty where each stands for itself.
     weight: Vec<f64>,
     partners: Partners,
@@ -121,7 +122,7 @@ impl Contacts {
     #[inline(always)]
     pub fn sites_of(&self, mesh: &Mesh, element: usize) -> Range<usize> {
         match element.checked_sub(mesh.triangles) {
-            None => self.of_triangle[element] as usize..self.of_triangle[element + 1] as usize,
+            None => self.sites_of_triangles(element..element + 1),
             Some(atom) => {
                 let site = self.carrier.len() + atom;
                 site..site + 1
@@ -256,7 +257,13 @@ impl Contacts {
     }
 
     fn sites_of_triangles(&self, triangles: Range<usize>) -> Range<usize> {
-        self.of_triangle[triangles.start] as usize..self.of_triangle[triangles.end] as usize
+        let first = |triangle: usize| {
+            let before = self
+                .of_triangle
+                .partition_point(|&[known, _]| (known as usize) < triangle);
+            self.of_triangle[before][1] as usize
+        };
+        first(triangles.start)..first(triangles.end)
     }
 
     /// Elements of other ranks whose sites are partners of mine, ascending.

@@ -72,11 +72,18 @@ impl SampledStrings {
         let certificate = certificate.filter(|_| summation == Summation::Exact);
         let kinds = interfaces.kinds.iter();
         let of_kind = kinds.map(|kind| KindStrings::new(summation, kind, certificate));
-        let kept = interfaces.pairs.iter().map(|pair| !pair.severed);
-        Self {
-            kept: kept.filter(|_| summation.keeps_strings()).collect(),
+        let mut strings = Self {
+            kept: Vec::new(),
             of_kind: of_kind.collect(),
-        }
+        };
+        strings.go_over_to(interfaces, summation);
+        strings
+    }
+
+    /// Goes over to other interfaces of the same kinds.
+    pub fn go_over_to(&mut self, interfaces: &Interfaces, summation: Summation) {
+        let kept = interfaces.pairs.iter().map(|pair| !pair.severed);
+        self.kept = kept.filter(|_| summation.keeps_strings()).collect();
     }
 
     /// The strings of a kind of interface.

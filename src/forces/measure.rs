@@ -36,20 +36,17 @@ impl Measure {
         [2, 3, 4].map(|part| self.planes[part][element])
     }
 
-    /// Brings what all elements hold to the first rank.
-    pub fn gather(&mut self, domain: &Domain) {
-        self.planes.iter_mut().for_each(|plane| domain.gather_elements(plane));
-    }
-
     /// Brings to a rank what the elements hold that it has asked for.
     pub fn bring(&mut self, parcels: &mut Halo, domain: &Domain) {
         let planes = self.planes.each_mut().map(Vec::as_mut_slice);
         parcels.bring(domain, Of::Elements, planes);
     }
 
-    /// Makes room for so many elements.
+    /// Makes room for so many elements, untouched zeros where nothing has been measured.
     pub(super) fn fit(&mut self, elements: usize) {
-        self.planes.iter_mut().for_each(|plane| plane.resize(elements, 0.0));
+        if self.planes[0].len() != elements {
+            self.planes = self.planes.each_ref().map(|_| vec![0.0; elements]);
+        }
     }
 
     /// The planes of the triangles and those of the atoms; empty where nothing is measured.

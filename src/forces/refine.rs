@@ -15,20 +15,26 @@ impl Forces {
     /// about half of the difference to the next element. Infinite where a bond has nothing left or an interface has opened.
     /// An even strain has no error, nor has a triangle on whose edges nothing but atoms, faces and grips border.
     ///
-    /// It depends on nothing but positions and on which interfaces are open. All ranks must know the positions of all nodes,
-    /// and get the same.
+    /// It depends on nothing but the positions, which must be those of the last forces, and on which interfaces are open. All
+    /// ranks must ask for it together, and get the same.
     pub fn strain_errors(&self, position: &Planes) -> Vec<f64> {
         let critical = self.material.critical_strain();
         let numbers = (0..self.interfaces.pairs.len()).into_par_iter().with_min_len(CHUNK);
         let of_interfaces: Vec<f64> = numbers
             .map(|number| self.error_across(number, critical, position))
             .collect();
-        let triangles = (0..self.mesh.triangles).into_par_iter().with_min_len(CHUNK);
+        let mine = self.domain.grouped().into_par_iter().with_min_len(CHUNK);
         let of_triangle = |triangle: usize| {
             let errors = self.interfaces.of(triangle).iter();
-            errors.map(|&number| of_interfaces[number as usize]).fold(0.0, f64::max)
+            errors.map(|&place| of_interfaces[place as usize]).fold(0.0, f64::max)
         };
-        triangles.map(of_triangle).collect()
+        let mut errors = vec![0.0; self.mesh.triangles];
+        mine.clone()
+            .map(of_triangle)
+            .zip(&mut errors[self.domain.grouped()])
+            .for_each(|(found, error)| *error = found);
+        self.domain.share_grouped(&mut errors);
+        errors
     }
 
     /// What [`Self::strain_errors`] says of an interface.
@@ -81,19 +87,6 @@ impl Forces {
             // Also where the positions are not numbers.
             false => f64::INFINITY,
         }
-    }
-
-    /// Interfaces between triangles that have opened, without those that a cut severs.
-    pub fn opened_interfaces(&self) -> usize {
-        let loosened = self.loosened.iter().map(|&number| number as usize);
-        loosened
-            .filter(|&number| self.is_open(number) && !self.interfaces.pairs[number].severed)
-            .count()
-    }
-
-    /// All pairs of triangles that border on each other, and whether a cut severs them.
-    pub fn neighbours(&self) -> impl Iterator<Item = ([u32; 2], bool)> {
-        self.interfaces.pairs.iter().map(|pair| (pair.both(), pair.severed))
     }
 
     /// Goes over to another mesh of the same sites, in which no interface is open but those that a cut severs. All ranks must

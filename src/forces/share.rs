@@ -1,7 +1,7 @@
 //! What falls to each rank, and what it needs of others.
 
 use super::contact::lattice::AtomLattice;
-use super::{Forces, IntactLimit, tile};
+use super::{Forces, IntactLimit, State, tile};
 use crate::domain::{Burden, Domain, Halo};
 use crate::lattice::triangular;
 use crate::material::Material;
@@ -39,16 +39,21 @@ impl Forces {
         most * works.len() as f64 > (1.0 + IMBALANCE) * works.iter().sum::<f64>()
     }
 
-    /// Cuts the specimen anew, after [`Self::is_unbalanced`]. All ranks must have shared the state of all nodes.
+    /// Cuts the specimen anew, after [`Self::is_unbalanced`].
     pub fn cut_anew(&mut self) {
         let spent = self.spent_by_all.split_at(self.domain.ranks().count()).into();
-        let costs = costs(&self.mesh, &self.interfaces);
+        let costs = costs(&self.mesh, self.interfaces.exposed());
         self.domain.cut_anew(&self.mesh, costs, spent);
+        let listed = Self::listed(&self.material);
+        self.interfaces = self.interfaces.of_others(&self.mesh, listed, self.domain.grouped());
+        self.strings.go_over_to(&self.interfaces, self.summation);
+        self.states = vec![State::Tight; self.interfaces.pairs.len()];
         self.tiles = tile::tiles(&self.mesh, &self.interfaces, &self.strings, self.domain.grouped());
         self.bordering = bordering(&self.domain, &self.mesh, &self.interfaces, &self.atoms);
         self.halo = Halo::ask(&self.domain, &self.mesh, &self.bordering);
         self.watched.clear();
-        self.watch(&self.loosened.clone());
+        let loosened = std::mem::take(&mut self.loosened);
+        self.watch(&loosened);
         self.contacts.forget();
     }
 }
@@ -59,7 +64,7 @@ pub fn burdens(mesh: &Mesh, material: &Material, counts: &[u32]) -> Vec<Burden> 
     let interfaces = Interfaces::new(mesh, listed);
     let limit = IntactLimit::new(material, triangular::next_length(listed));
     let atoms = AtomLattice::new(mesh, listed, limit.regular);
-    let cost = costs(mesh, &interfaces);
+    let cost = costs(mesh, interfaces.exposed());
     let classes = [0..mesh.triangles, mesh.triangles..mesh.elements.len()];
     let whole = classes.map(|elements| elements.map(cost).sum::<f64>());
     let burden = |&ranks: &u32| {
@@ -92,9 +97,8 @@ pub fn burdens(mesh: &Mesh, material: &Material, counts: &[u32]) -> Vec<Burden> 
     counts.iter().map(burden).collect()
 }
 
-/// Estimates what an element costs in a step.
-pub fn costs<'a>(mesh: &'a Mesh, interfaces: &'a Interfaces) -> impl Fn(usize) -> f64 + Copy + use<'a> {
-    let exposed = &interfaces.exposed;
+/// Estimates what an element costs in a step; `exposed` are triangles that meet more than others, ascending.
+pub fn costs<'a>(mesh: &'a Mesh, exposed: &'a [u32]) -> impl Fn(usize) -> f64 + Copy + use<'a> {
     move |element: usize| {
         let shape = &mesh.elements[element];
         if shape.is_atom() {
@@ -129,7 +133,7 @@ pub fn bordering(domain: &Domain, mesh: &Mesh, interfaces: &Interfaces, atoms: &
             }
         });
     }
-    let at_atoms = interfaces.exposed.iter().map(|&triangle| triangle as usize);
+    let at_atoms = interfaces.exposed().iter().map(|&triangle| triangle as usize);
     let at_triangles = atoms.bordering().iter().map(|&atom| mesh.triangles + atom as usize);
     for element in at_atoms.chain(at_triangles).filter(|&element| domain.is_mine(element)) {
         let shape = &mesh.elements[element];

@@ -85,8 +85,12 @@ pub struct Forces {
     classes: HashMap<(Shape, i32), Vec<Class>>,
     /// Places that stand for all bonds of patches between parts of blocks of a size.
     few: HashMap<i32, Few>,
-    /// One for each interface that is intact, zero for others.
+    /// One for each interface of this rank that is intact, zero for others. Untouched for those of other ranks.
     intact: Vec<f64>,
+    /// Whether all interfaces are open from the start.
+    starts_open: bool,
+    /// Interfaces of all ranks that have opened, ascending.
+    opened: Vec<u32>,
     tiles: Vec<Tile>,
     /// `None` before the first search and after an interface has opened that was not ready for it.
     pairs: Option<Pairs>,
@@ -111,14 +115,6 @@ impl Forces {
     /// The part of this rank in the forces that all ranks compute together.
     pub fn shared(ranks: Ranks, mesh: Solid, material: Material, summation: Summation) -> Self {
         let reach = material.interaction.cutoff() / material.spacing;
-        // Elements that are compressed bring pairs from beyond the cutoff; second neighbours are watched apart.
-        let listed = reach
-            + if reach > SECOND_NEIGHBOURS {
-                LISTED_BEYOND_CUTOFF
-            } else {
-                0.0
-            };
-        let interfaces = Interfaces::new(&mesh, listed);
         let mut classes = HashMap::new();
         for group in mesh.groups() {
             let of_kind = || inside::classes(group.shape, group.size, reach + LISTED_BEYOND_CUTOFF);
@@ -130,20 +126,18 @@ impl Forces {
         let few = sizes
             .into_iter()
             .filter_map(|size| Some((size, Few::new(&material, summation, size - 2)?)));
-        let intact = if reach > SECOND_NEIGHBOURS { 0.0 } else { 1.0 };
-        let mut intact = vec![intact; interfaces.pairs.len()];
-        let severed = interfaces.severed.iter();
-        severed.for_each(|&number| intact[number as usize] = 0.0);
-        let places = mesh.node_positions();
-        let largest = places
-            .iter()
-            .flatten()
-            .fold(mesh.spacing, |most: f64, place| most.max(place.abs()));
+        let starts_open = reach > SECOND_NEIGHBOURS;
+        let largest = mesh.farthest().max(mesh.spacing);
         let parts = mesh.parts;
         let domain = Domain::new(ranks, &mesh, |element| if element < parts { PART } else { 1.0 });
+        // Elements that are compressed bring pairs from beyond the cutoff; second neighbours are watched apart.
+        let beyond = if starts_open { LISTED_BEYOND_CUTOFF } else { 0.0 };
+        let interfaces = Interfaces::listed_for(&mesh, reach + beyond, domain.grouped());
         let bordering = bordering(&domain, &interfaces);
         Self {
-            intact,
+            intact: intact(&interfaces, &domain, starts_open),
+            starts_open,
+            opened: interfaces.severed.clone(),
             tiles: sweep::tiles(&mesh, &interfaces, domain.grouped(), rayon::current_num_threads()),
             halo: Halo::ask(&domain, &mesh, &bordering),
             farthest: FARTHEST * largest,
@@ -179,6 +173,11 @@ impl Forces {
         &self.mesh
     }
 
+    /// The mesh alone.
+    pub fn into_mesh(self) -> Solid {
+        self.mesh
+    }
+
     pub fn material(&self) -> &Material {
         &self.material
     }
@@ -193,18 +192,23 @@ impl Forces {
 
     /// Numbers of the interfaces that are no longer intact, ascending: the only memory that a restart must keep.
     pub fn open_interfaces(&self) -> Vec<u32> {
-        let open = (0..).zip(&self.intact).filter(|(_, intact)| **intact == 0.0);
-        open.map(|(number, _)| number).collect()
+        match self.starts_open {
+            true => (0..self.interface_count() as u32).collect(),
+            false => self.opened.clone(),
+        }
     }
 
     /// Puts back what [`Self::open_interfaces`] gave.
     pub fn restore_open_interfaces(&mut self, open: &[u32]) {
-        self.intact.fill(1.0);
-        self.open(open);
+        if !self.starts_open {
+            self.intact = intact(&self.interfaces, &self.domain, false);
+            self.opened.clear();
+            self.open(open);
+        }
     }
 
     pub fn interface_count(&self) -> usize {
-        self.intact.len()
+        self.interfaces.count()
     }
 
     /// What bonds closer than in a regular lattice do.
@@ -218,7 +222,7 @@ impl Forces {
 
     /// The parts on both sides of an interface.
     pub fn beside(&self, interface: u32) -> [u32; 2] {
-        self.interfaces.pairs[interface as usize]
+        self.interfaces.pair(interface)
     }
 
     /// Parts that have a side along which atoms or parts of another size lie, ascending.
@@ -238,6 +242,9 @@ impl Forces {
 
     fn open(&mut self, interfaces: &[u32]) {
         interfaces.iter().for_each(|&number| self.intact[number as usize] = 0.0);
+        self.opened.extend(interfaces);
+        self.opened.sort_unstable();
+        self.opened.dedup();
         let Some(mut pairs) = self.pairs.take_if(|pairs| pairs.are_ready(interfaces)) else {
             self.pairs = None;
             return;
@@ -260,15 +267,28 @@ impl Forces {
     }
 }
 
+/// For each interface of a rank one where it is intact at the start.
+fn intact(interfaces: &Interfaces, domain: &Domain, starts_open: bool) -> Vec<f64> {
+    let mut intact = vec![0.0; interfaces.count()];
+    let mine = domain.grouped();
+    for run in interfaces.runs.iter().filter(|run| !starts_open && run.touches(&mine)) {
+        intact[run.number..run.number + run.len].fill(1.0);
+    }
+    let severed = interfaces.severed.iter();
+    severed.for_each(|&number| intact[number as usize] = 0.0);
+    intact
+}
+
 /// Others' parts that have interfaces with mine, ascending.
 fn bordering(domain: &Domain, interfaces: &Interfaces) -> Vec<u32> {
     let mine = domain.grouped();
     let is_mine = |part: &u32| mine.contains(&(*part as usize));
-    let across = interfaces
-        .pairs
+    let at_border = interfaces
+        .runs
         .iter()
-        .filter(|pair| is_mine(&pair[0]) != is_mine(&pair[1]));
-    let mut others: Vec<u32> = across.flatten().copied().filter(|part| !is_mine(part)).collect();
+        .filter(|run| mine.contains(&run.first) != mine.contains(&run.second));
+    let pairs = at_border.flat_map(|run| (run.number..run.number + run.len).map(|number| run.pair(number)));
+    let mut others: Vec<u32> = pairs.flatten().filter(|part| !is_mine(part)).collect();
     others.sort_unstable();
     others.dedup();
     others

@@ -7,10 +7,11 @@ use rayon::prelude::*;
 use super::ahead::Motion;
 use super::close::{self, Crowd};
 use super::interface::{Pair, State};
+use super::loosened::Loosened;
 use super::measure::in_lengths;
 use super::tile;
 use super::{Affine, CHUNK, ForceError, Forces, Measure, Planes, contact};
-use crate::domain::{Call, Halo};
+use crate::domain::{Call, Halo, Of};
 use crate::potential::{CutPotential, PairShape, with_law};
 
 impl Forces {
@@ -231,33 +232,30 @@ impl Forces {
 
     /// Puts in force what any rank has found of interfaces; returns which of my tiles and of my triangles they touch.
     fn change_interfaces(&mut self, mine: &[(u32, State)]) -> (Vec<bool>, Vec<u32>) {
-        let words = mine.iter().flat_map(|&(number, state)| [number, state as u32]);
-        let words = self.domain.ranks().join(words.collect());
+        let mine = mine
+            .iter()
+            .map(|&(place, state)| Loosened::at(&self.interfaces, place as usize, state));
+        let changed = Loosened::of_all_ranks(&self.domain, &mine.collect::<Vec<_>>());
         let mut touched = vec![false; self.tiles.len()];
         let triangles = self.domain.grouped();
         let mut beside = Vec::new();
-        let (changed, _) = words.as_chunks::<2>();
-        for &[number, state] in changed {
-            let pair = self.interfaces.pairs[number as usize];
-            let known = &mut self.states[number as usize];
-            *known = State::from_number(state).max(*known);
-            for triangle in [pair.first as usize, pair.second as usize] {
-                if triangles.contains(&triangle) {
-                    touched[tile::of_triangle(&self.tiles, triangle)] = true;
-                    beside.push(triangle as u32);
-                }
+        for triangle in changed.iter().flat_map(|known| known.both) {
+            if triangles.contains(&(triangle as usize)) {
+                touched[tile::of_triangle(&self.tiles, triangle as usize)] = true;
+                beside.push(triangle);
             }
         }
-        let changed: Vec<u32> = changed.iter().map(|&[number, _]| number).collect();
         self.watch(&changed);
         self.contacts.forget();
         (touched, beside)
     }
 
-    /// Makes new lists of neighbours. Anything may have come near, so all ranks learn all positions.
+    /// Makes new lists of neighbours. Anything that is not as in the lattice may have come near, so all ranks learn where all of
+    /// that is.
     fn search(&mut self, position: &mut Planes) -> Result<(), ForceError> {
         let start = Instant::now();
-        position.iter_mut().for_each(|axis| self.domain.share_nodes(axis));
+        let triangles = contact::searched(&self.interfaces, &self.loosened);
+        self.share(&triangles, position);
         let shared = Instant::now();
         let field = contact::Field {
             mesh: &self.mesh,
@@ -267,7 +265,6 @@ impl Forces {
             summation: self.summation,
             unlisted: self.limit.unlisted,
         };
-        let triangles = contact::searched(&self.mesh, &self.interfaces, &self.loosened);
         self.check_sound(&triangles, position)?;
         self.contacts = contact::Contacts::search(&field, &triangles, &mut self.atoms, &self.material, position);
         let mut needed = [&self.bordering[..], self.contacts.needed()].concat();
@@ -280,6 +277,18 @@ impl Forces {
         self.searches += 1;
         self.search_time += shared.elapsed();
         Ok(())
+    }
+
+    /// Brings the positions of some triangles and of all atoms to all ranks.
+    fn share(&self, triangles: &[u32], position: &mut Planes) {
+        let mine = self.domain.grouped();
+        let others = triangles
+            .iter()
+            .filter(|&&triangle| !mine.contains(&(triangle as usize)));
+        let others: Vec<u32> = others.copied().collect();
+        let mut halo = Halo::ask(&self.domain, &self.mesh, &others);
+        halo.bring(&self.domain, Of::Nodes, position.each_mut().map(Vec::as_mut_slice));
+        position.iter_mut().for_each(|axis| self.domain.share_atoms(axis));
     }
 
     /// Refuses positions that are no numbers or far away, and triangles that are inside out, among atoms and these triangles;

@@ -18,6 +18,9 @@ impl<const D: usize> Ramp<D> {
     /// Gives every node the velocity of its reference place.
     pub fn set(&self, reference: &[Vec<f64>; D], state: &mut State<D>) {
         for node in 0..state.nodes() {
+            if !state.has(node) {
+                continue;
+            }
             let place: f64 = (0..D).map(|axis| self.along[axis] * reference[axis][node]).sum();
             let share = ((place - self.from) / (self.to - self.from)).clamp(0.0, 1.0);
             let [low, high] = self.velocities;

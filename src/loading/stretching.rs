@@ -128,7 +128,11 @@ impl Stretching {
     pub fn pre_stretch(&self, mesh: &Mesh, state: &mut State) {
         let [low, high] = mesh.grip_edges();
         let middle = 0.5 * (low + high);
-        for height in &mut state.position[1] {
+        for (height, _) in state.position[1]
+            .iter_mut()
+            .zip(&state.mass)
+            .filter(|(_, mass)| **mass > 0.0)
+        {
             *height += self.pre_strain * (height.clamp(low, high) - middle);
         }
     }
@@ -138,9 +142,13 @@ impl Stretching {
         if self.ramp {
             let [low, high] = mesh.grip_edges();
             let middle = 0.5 * (low + high);
-            let [_, reference] = mesh.node_positions();
-            for (velocity, height) in state.velocity[1].iter_mut().zip(reference) {
-                *velocity = self.rate * (height - middle);
+            for (number, element) in mesh.elements.iter().enumerate() {
+                for (node, corner) in mesh.nodes_of(number).zip(element.corners()) {
+                    if state.has(node) {
+                        let [_, height] = mesh.reference(corner);
+                        state.velocity[1][node] = self.rate * (height - middle);
+                    }
+                }
             }
         }
         self.hold(state);

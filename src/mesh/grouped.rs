@@ -95,6 +95,8 @@ pub trait Grouped {
     fn group_count(&self) -> usize;
     /// The elements and the nodes of a group.
     fn group(&self, number: usize) -> [Range<usize>; 2];
+    /// Of each node of an element, in site masses.
+    fn lumped_mass(&self, element: usize) -> f64;
     /// For each group how the consistent mass matrix couples the nodes of one of its elements.
     fn mass_couplings(&self) -> Vec<MassCoupling>;
 
@@ -121,4 +123,22 @@ pub trait Grouped {
         };
         groups.flat_map(of_group).collect()
     }
+}
+
+/// Lumped masses, in site masses, of the nodes of some ranges of elements, which start and end with groups or are atoms; the
+/// others are untouched zeros, which take no memory.
+pub fn masses_of(mesh: &impl Grouped, elements: &[Range<usize>]) -> Vec<f64> {
+    let mut masses = vec![0.0; mesh.node_count()];
+    for elements in elements {
+        let mut from = elements.start;
+        while from < elements.end.min(mesh.grouped()) {
+            let [group, nodes] = mesh.group(mesh.group_number(from));
+            masses[nodes].fill(mesh.lumped_mass(from));
+            from = group.end;
+        }
+        for atom in from.max(mesh.grouped())..elements.end {
+            masses[mesh.first_node(atom)] = mesh.lumped_mass(atom);
+        }
+    }
+    masses
 }

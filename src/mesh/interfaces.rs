@@ -4,11 +4,15 @@
 //! vector is linear in the position, because both triangles are affine.
 
 mod neighbours;
+mod survey;
 
-use std::collections::HashMap;
+pub use survey::{Kind, Survey, Told};
+
+use std::ops::Range;
 
 use super::Mesh;
 use super::element::Element;
+use super::groups::Group;
 use crate::lattice::triangular;
 
 /// A run of equal bonds between two triangles: sites start + t step of the first, t = 0 .. count, each joined to the
@@ -61,18 +65,24 @@ impl Interface {
     }
 }
 
-/// Every pair of triangles with sites no farther apart than a reach, and what each triangle touches.
+/// The pairs of triangles with sites no farther apart than a reach to which some triangles belong, those of a rank or all,
+/// and what each of these touches. They are known by their places here. Each has a number in the whole mesh, too, in which
+/// they ascend.
 #[derive(Clone, Debug, Default)]
 pub struct Interfaces {
     pub kinds: Vec<InterfaceKind>,
     /// first < second; those that are alike and follow each other in the mesh do so here.
     pub pairs: Vec<Interface>,
-    /// For every triangle where its part of `of_triangle` starts, and the length at the end.
-    start: Vec<u32>,
+    /// Place and number of the first of each run of consecutive numbers.
+    numbered: Vec<[u32; 2]>,
+    /// How many there are in the whole mesh.
+    count: usize,
+    /// For every triangle of the mesh where its part of `of_triangle` starts and ends. Untouched, and so not in memory, for
+    /// those that border on none of these.
+    range: Vec<[u32; 2]>,
     /// Interfaces of each triangle, by the number of the neighbour.
     of_triangle: Vec<u32>,
-    /// Triangles that border an atom or a free surface or a cut, ascending: they meet more than other triangles.
-    pub exposed: Vec<u32>,
+    told: Told,
 }
 
 /// Interfaces stay together with those of so many triangles side by side, upright and inverted ones of a row: what belongs
@@ -82,122 +92,213 @@ const STRETCH: usize = 64;
 /// Triangles whose sites come this close (in spacings) count as neighbours: the third shell.
 const REACH: f64 = 2.0;
 
-type KindKey = (i32, i32, i32, i32, i32, i32);
-
 impl Interfaces {
-    /// Finds the neighbours of a mesh; strings hold every bond no longer than `bond_length` spacings.
+    /// Finds all neighbours of a mesh; strings hold every bond no longer than `bond_length` spacings.
     pub fn new(mesh: &Mesh, bond_length: f64) -> Self {
-        let bonds = triangular::vectors_within(bond_length);
-        let around = triangular::vectors_within(REACH.max(bond_length));
-        let mut found = Self::default();
-        let mut kinds: HashMap<KindKey, u32> = HashMap::new();
-        let mut near = Vec::new();
-        let mut surroundings: HashMap<(i32, i32), Vec<[i32; 2]>> = HashMap::new();
-        for (number, element) in mesh.elements[..mesh.triangles].iter().enumerate() {
-            let shape = (element.size, element.sign);
-            let surrounding = surroundings
-                .entry(shape)
-                .or_insert_with(|| neighbours::surrounding(element, &around));
-            let borders_others = neighbours::collect(mesh, element, surrounding, &mut near);
-            if borders_others || neighbours::borders_cut(mesh, element, &around) {
-                found.exposed.push(number as u32);
-            }
-            for &other in near.iter().filter(|&&other| other as usize > number) {
-                let second = &mesh.elements[other as usize];
-                let key = (
-                    element.size,
-                    element.sign,
-                    second.size,
-                    second.sign,
-                    second.column - element.column,
-                    second.row - element.row,
-                );
-                let kind = *kinds.entry(key).or_insert_with(|| {
-                    found.kinds.push(InterfaceKind::between(element, second, &bonds));
-                    found.kinds.len() as u32 - 1
-                });
-                let severed = neighbours::is_severed(mesh, element, second, &around);
-                found.pairs.push(Interface {
-                    first: number as u32,
-                    second: other,
-                    kind,
-                    severed,
-                });
-            }
-        }
-        found.sort_and_index(mesh);
+        let mut survey = Survey::new(mesh, bond_length, 0..mesh.triangles);
+        let told = survey.tell();
+        Self::of_triangles(mesh, survey, told, 0..mesh.triangles)
+    }
+
+    /// Those of consecutive triangles that start and end with groups, from a survey and from what all surveys have told.
+    pub fn of_triangles(mesh: &Mesh, mut survey: Survey, told: Told, triangles: Range<usize>) -> Self {
+        let reach = survey.reach();
+        let kinds = told.kinds.iter().map(|kind| kind.in_full(survey.bonds())).collect();
+        survey.know(&told.kinds);
+        let mut found = Self {
+            kinds,
+            ..Self::default()
+        };
+        let near = near_rows(mesh, &triangles, reach);
+        found.collect(mesh, &told, triangles, &near, |row, pairs| {
+            survey.pairs_of(mesh, row, pairs)
+        });
+        drop(survey);
+        found.index(mesh.triangles, &near);
+        found.told = told;
         found
     }
 
-    /// Puts interfaces that are alike together, and tells each triangle its own. They come by their first triangle and by
-    /// their second, so that every triangle meets its neighbours in rising order. Those of a
-    /// stretch of a row stay together.
-    fn sort_and_index(&mut self, mesh: &Mesh) {
-        let triangles = mesh.triangles;
-        let has_strings = |found: &u32| {
-            let kind = &self.kinds[self.pairs[*found as usize].kind as usize];
-            !kind.strings.is_empty()
-        };
-        let (mut order, without): (Vec<u32>, Vec<u32>) = (0..self.pairs.len() as u32).partition(has_strings);
-        order.extend(without);
-        // They were found by their first triangle, so those of a row are together.
-        let row_of = |found: u32| {
-            let first = &mesh.elements[self.pairs[found as usize].first as usize];
-            (has_strings(&found), first.size, first.lowest_row())
-        };
-        for of_row in order.chunk_by_mut(|one, other| row_of(*one) == row_of(*other)) {
-            of_row.sort_unstable_by_key(|&found| {
-                let pair = &self.pairs[found as usize];
-                let first = pair.first as usize;
-                let stretch = (first - mesh.groups.of(first).elements.start) / STRETCH;
-                (stretch, mesh.groups.number_of(first), pair.kind, first)
-            });
-        }
-        let mut number_of = vec![0; order.len()];
-        (0..)
-            .zip(&order)
-            .for_each(|(number, &found)| number_of[found as usize] = number);
+    /// Those of other triangles of the same mesh, with strings of the same bonds.
+    pub fn of_others(&self, mesh: &Mesh, bond_length: f64, triangles: Range<usize>) -> Self {
+        let survey = Survey::new(mesh, bond_length, 0..0);
+        Self::of_triangles(mesh, survey, self.told.clone(), triangles)
+    }
 
-        let mut start = vec![0u32; triangles + 1];
-        for pair in &self.pairs {
-            start[pair.first as usize + 1] += 1;
-            start[pair.second as usize + 1] += 1;
+    /// Puts interfaces that are alike together, and tells each triangle its own. In every row of triangles of a size those of a
+    /// stretch stay together, then those of a group and of a kind, so that their order does not depend on which rows are known.
+    fn collect(
+        &mut self,
+        mesh: &Mesh,
+        told: &Told,
+        triangles: Range<usize>,
+        near: &[Range<usize>],
+        mut pairs_of: impl FnMut(Range<usize>, &mut Vec<Interface>),
+    ) {
+        let totals = [0, 1].map(|half| told.counts.iter().map(|counts| counts[half] as usize).sum::<usize>());
+        self.count = totals.iter().sum();
+        // Those with strings have the first numbers.
+        let mut next = [0, totals[0]];
+        let mut halves = [Vec::new(), Vec::new()];
+        let mut numbered: [Vec<[u32; 2]>; 2] = Default::default();
+        let mut of_row = Vec::new();
+        let mut near = near.iter().peekable();
+        for (row, counts) in rows(mesh).into_iter().zip(&told.counts) {
+            if near.next_if_eq(&&row).is_some() {
+                of_row.clear();
+                pairs_of(row, &mut of_row);
+                of_row.sort_unstable_by_key(|pair| {
+                    let first = pair.first as usize;
+                    let stretch = (first - mesh.groups.of(first).elements.start) / STRETCH;
+                    (stretch, mesh.groups.number_of(first), pair.kind, first)
+                });
+                let mut numbers = next;
+                for pair in &of_row {
+                    let half = usize::from(self.kinds[pair.kind as usize].strings.is_empty());
+                    let number = numbers[half] as u32;
+                    numbers[half] += 1;
+                    if pair
+                        .both()
+                        .iter()
+                        .any(|&triangle| triangles.contains(&(triangle as usize)))
+                    {
+                        let place = halves[half].len() as u32;
+                        match numbered[half].last() {
+                            Some(&[from, first]) if first + (place - from) == number => {}
+                            _ => numbered[half].push([place, number]),
+                        }
+                        halves[half].push(*pair);
+                    }
+                }
+            }
+            (0..2).for_each(|half| next[half] += counts[half] as usize);
         }
-        for k in 0..triangles {
-            start[k + 1] += start[k];
+        let [with_strings, without] = halves;
+        let before = with_strings.len() as u32;
+        let [first, second] = numbered;
+        self.numbered = first;
+        self.numbered
+            .extend(second.into_iter().map(|[place, number]| [before + place, number]));
+        self.pairs = with_strings;
+        self.pairs.extend(without);
+        self.pairs.shrink_to_fit();
+    }
+
+    /// Tells each triangle its own, in the order of its neighbours; all that border on any of these are in some ranges.
+    fn index(&mut self, triangles: usize, near: &[Range<usize>]) {
+        let mut range = vec![[0; 2]; triangles];
+        for triangle in self.pairs.iter().flat_map(Interface::both) {
+            range[triangle as usize][1] += 1;
         }
-        let mut next = start.clone();
-        let mut of_triangle = vec![0; start[triangles] as usize];
-        for (pair, &number) in self.pairs.iter().zip(&number_of) {
-            for owner in [pair.first as usize, pair.second as usize] {
-                of_triangle[next[owner] as usize] = number;
-                next[owner] += 1;
+        let mut total = 0;
+        for triangle in near.iter().cloned().flatten() {
+            let [start, end] = &mut range[triangle];
+            *start = total;
+            total += *end;
+            *end = *start;
+        }
+        let mut of_triangle = vec![0; total as usize];
+        for (place, pair) in (0..).zip(&self.pairs) {
+            for triangle in pair.both() {
+                let [_, end] = &mut range[triangle as usize];
+                of_triangle[*end as usize] = place;
+                *end += 1;
             }
         }
-        self.pairs = order.into_iter().map(|found| self.pairs[found as usize]).collect();
-        self.start = start;
+        for triangle in near.iter().cloned().flatten() {
+            let [start, end] = range[triangle];
+            of_triangle[start as usize..end as usize].sort_unstable_by_key(|&place| {
+                let pair = &self.pairs[place as usize];
+                pair.first ^ pair.second ^ triangle as u32
+            });
+        }
+        self.range = range;
         self.of_triangle = of_triangle;
     }
 
-    /// The interfaces of a triangle by the number of the neighbour.
-    #[inline(always)]
-    pub fn of(&self, triangle: usize) -> &[u32] {
-        &self.of_triangle[self.start[triangle] as usize..self.start[triangle + 1] as usize]
+    /// How many interfaces the whole mesh has.
+    pub fn count(&self) -> usize {
+        self.count
     }
 
-    /// The interface between two triangles, if they are neighbours.
+    /// Triangles of the whole mesh that border an atom or a free surface or a cut, ascending: they meet more than other
+    /// triangles.
+    pub fn exposed(&self) -> &[u32] {
+        &self.told.exposed
+    }
+
+    /// The number in the whole mesh of the interface at a place.
+    pub fn number_of(&self, place: usize) -> u32 {
+        let after = self.numbered.partition_point(|run| run[0] as usize <= place);
+        let [from, number] = self.numbered[after - 1];
+        number + (place as u32 - from)
+    }
+
+    /// The place of the interface with a number in the whole mesh; `None` where it is not one of these.
+    pub fn place_of(&self, number: u32) -> Option<usize> {
+        let after = self.numbered.partition_point(|run| run[1] <= number);
+        let [from, first] = self.numbered[after.checked_sub(1)?];
+        let end = self.numbered.get(after).map_or(self.pairs.len() as u32, |run| run[0]);
+        let place = from + (number - first);
+        (place < end).then_some(place as usize)
+    }
+
+    /// The places of the interfaces of a triangle by the number of the neighbour, of one that is not of these triangles only
+    /// those with them.
+    #[inline(always)]
+    pub fn of(&self, triangle: usize) -> &[u32] {
+        let [start, end] = self.range[triangle];
+        &self.of_triangle[start as usize..end as usize]
+    }
+
+    /// The interface between two triangles, if they are neighbours and one of them is of these triangles.
     #[inline(always)]
     pub fn between(&self, a: usize, b: usize) -> Option<usize> {
         let (first, second) = (a.min(b) as u32, a.max(b) as u32);
-        let candidates = self.of(a).iter().map(|&number| number as usize);
+        let candidates = self.of(a).iter().map(|&place| place as usize);
         candidates
             .into_iter()
-            .find(|&number| self.pairs[number].first == first && self.pairs[number].second == second)
+            .find(|&place| self.pairs[place].first == first && self.pairs[place].second == second)
     }
 
     pub fn strings(&self, interface: usize) -> &[BondString] {
         &self.kinds[self.pairs[interface].kind as usize].strings
     }
+}
+
+/// The rows of triangles of one size, upright and inverted ones: consecutive triangles.
+fn rows(mesh: &Mesh) -> Vec<Range<usize>> {
+    let row_of = |group: &Group| {
+        let first = &mesh.elements[group.elements.start];
+        (first.size, first.lowest_row())
+    };
+    let rows = mesh.groups.all().chunk_by(|one, other| row_of(one) == row_of(other));
+    rows.map(|row| row[0].elements.start..row[row.len() - 1].elements.end)
+        .collect()
+}
+
+/// The rows that come within a reach, in lattice rows, of those of some triangles: all that these border on are there.
+fn near_rows(mesh: &Mesh, triangles: &Range<usize>, reach: i32) -> Vec<Range<usize>> {
+    let rows = rows(mesh);
+    let extents = rows.iter().map(|row| {
+        let first = &mesh.elements[row.start];
+        first.lowest_row()..first.lowest_row() + first.size
+    });
+    let extents: Vec<Range<i32>> = extents.collect();
+    let is_own = |row: &Range<usize>| row.start < triangles.end && triangles.start < row.end;
+    let mut own: Vec<&Range<i32>> = rows
+        .iter()
+        .zip(&extents)
+        .filter(|(row, _)| is_own(row))
+        .map(|(_, extent)| extent)
+        .collect();
+    own.sort_unstable_by_key(|extent| extent.start);
+    let is_near = |extent: &Range<i32>| {
+        own.iter()
+            .any(|own| extent.start < own.end + reach && own.start < extent.end + reach)
+    };
+    let near = rows.iter().zip(&extents).filter(|(_, extent)| is_near(extent));
+    near.map(|(row, _)| row.clone()).collect()
 }
 
 impl InterfaceKind {
@@ -268,112 +369,4 @@ fn facing_sites(first: &Element, second: &Element) -> [[i32; 2]; 2] {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::Plan;
-    use super::super::cut::Crack;
-    use super::super::sites::Layout;
-    use super::*;
-
-    fn mesh(element: u16, crack_length: Option<f64>) -> Mesh {
-        let layout = Layout {
-            block: 10,
-            rows: 6,
-            triangles: 13,
-        };
-        Mesh::new(&Plan {
-            layout,
-            element,
-            regions: vec![],
-            crack: crack_length.map(Crack::of_length),
-            grip_rows: 10,
-            spacing: 1.0,
-        })
-    }
-
-    #[test]
-    fn a_cell_of_two_55_site_triangles_has_57_bonds_along_edges_and_3_at_corners() {
-        let mesh = mesh(10, None);
-        let interfaces = Interfaces::new(&mesh, 1.4);
-        let bonds = |number: usize| interfaces.strings(number).iter().map(|s| s.count).sum::<i32>();
-        let counts: Vec<i32> = (0..interfaces.pairs.len()).map(bonds).collect();
-        assert!(counts.iter().all(|count| [0, 1, 19].contains(count)), "{counts:?}");
-        // All bonds of the site set: those inside elements and those across, found site by site.
-        let across = mesh
-            .sites
-            .iter()
-            .flat_map(|a| triangular::NEAREST.map(|v| (a, [a[0] + v[0], a[1] + v[1]])));
-        let across = across.filter(|&(a, b)| mesh.owner_of(b).is_some_and(|owner| Some(owner) != mesh.owner_of(a)));
-        assert_eq!(counts.iter().sum::<i32>() as usize, across.count());
-        // An upright triangle in the middle of a row: three edges of 19 bonds, three corner bonds; half of each belongs to it.
-        let inner = 2 * 13 + 3;
-        let own: i32 = interfaces.of(inner).iter().map(|&number| bonds(number as usize)).sum();
-        assert_eq!(own, 57 + 3);
-    }
-
-    #[test]
-    fn long_bonds_between_unlike_triangles_are_all_listed_once() {
-        for element in [7, 10, 4] {
-            let mesh = mesh(element, None);
-            let interfaces = Interfaces::new(&mesh, 2.4);
-            let mut listed = 0;
-            for (number, pair) in interfaces.pairs.iter().enumerate() {
-                let [first, second] = pair.both().map(|e| mesh.elements[e as usize]);
-                for string in interfaces.strings(number) {
-                    for t in 0..string.count {
-                        let [a, b] = string.ends(t);
-                        let [a, b] = [first.site(a), second.site(b)];
-                        assert_eq!(shift(a, string.bond, 1), b);
-                        assert!(first.contains(a) && second.contains(b));
-                        listed += 1;
-                    }
-                }
-            }
-            let triangle = |site| mesh.owner_of(site).filter(|&owner| owner < mesh.triangles);
-            let half = triangular::half_vectors_within(2.4);
-            let across = mesh
-                .sites
-                .iter()
-                .flat_map(|a| half.iter().map(move |v| (a, shift(a, *v, 1))));
-            let expected = across.filter(|&(a, b)| match (triangle(a), triangle(b)) {
-                (Some(first), Some(second)) => first != second,
-                _ => false,
-            });
-            assert_eq!(listed, expected.count(), "element {element}");
-        }
-    }
-
-    #[test]
-    fn every_triangle_meets_its_neighbours_in_rising_order_and_alike_ones_follow_each_other() {
-        let mesh = mesh(10, Some(30.0));
-        let interfaces = Interfaces::new(&mesh, 1.4);
-        for triangle in 0..mesh.triangles {
-            let pairs = interfaces
-                .of(triangle)
-                .iter()
-                .map(|&number| interfaces.pairs[number as usize]);
-            let met: Vec<u32> = pairs.map(|pair| pair.first ^ pair.second ^ triangle as u32).collect();
-            assert!(met.is_sorted() && met.len() > 2);
-        }
-        let has_strings = |pair: &Interface| !interfaces.kinds[pair.kind as usize].strings.is_empty();
-        assert!(interfaces.pairs.is_sorted_by_key(|pair| !has_strings(pair)));
-        let runs = interfaces
-            .pairs
-            .chunk_by(|a, b| a.kind == b.kind && b.first == a.first + 1);
-        assert!(8 * runs.count() < interfaces.pairs.len() * 3, "long runs");
-    }
-
-    #[test]
-    fn interfaces_along_the_cut_are_severed_and_their_triangles_exposed() {
-        let mesh = mesh(10, Some(30.0));
-        let interfaces = Interfaces::new(&mesh, 1.4);
-        let severed = interfaces.pairs.iter().filter(|pair| pair.severed).count();
-        assert!(severed > 4 && severed < interfaces.pairs.len() / 4);
-        let across = |pair: &Interface| {
-            let rows = pair
-                .both()
-                .map(|e| mesh.elements[e as usize].row < mesh.cut.unwrap().row);
-            rows[0] != rows[1]
-        };
-        assert!(interfaces.pairs.iter().filter(|pair| pair.severed).all(across));
-    }
-}
+mod tests;

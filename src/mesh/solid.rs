@@ -18,7 +18,7 @@ mod tiling;
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::grouped::{Grouped, MassCoupling};
+use super::grouped::{self, Grouped, MassCoupling};
 use element::{Element, Shape};
 use region::Region;
 use sites::Sites;
@@ -176,8 +176,14 @@ impl Solid {
 
     /// Reference positions of the nodes, x, y and z, nm.
     pub fn node_positions(&self) -> [Vec<f64>; 3] {
+        self.node_positions_of(&[0..self.elements.len()])
+    }
+
+    /// The same of the nodes of some ranges of elements; the others are untouched zeros, which take no memory.
+    pub fn node_positions_of(&self, elements: &[Range<usize>]) -> [Vec<f64>; 3] {
         let mut planes = [0, 1, 2].map(|_| vec![0.0; self.node_count()]);
-        for (number, element) in self.elements.iter().enumerate() {
+        for number in elements.iter().cloned().flatten() {
+            let element = &self.elements[number];
             for (node, corner) in self.nodes_of(number).zip(element.corners()) {
                 let place = self.sites.frame.place(element.site(corner));
                 (0..3).for_each(|axis| planes[axis][node] = place[axis]);
@@ -186,13 +192,17 @@ impl Solid {
         planes
     }
 
+    /// Largest coordinate of a node in its reference position, nm.
+    pub fn farthest(&self) -> f64 {
+        let elements = self.elements.iter();
+        let corners = elements.flat_map(|element| element.corners().into_iter().map(|corner| element.site(corner)));
+        let places = corners.flat_map(|site| self.sites.frame.place(site));
+        places.fold(0.0, |most: f64, place| most.max(place.abs()))
+    }
+
     /// Lumped mass of every node in site masses.
     pub fn lumped_masses(&self) -> Vec<f64> {
-        let mut masses = vec![1.0; self.node_count()];
-        for group in &self.groups {
-            masses[group.nodes()].fill(self.elements[group.elements.start].lumped_mass());
-        }
-        masses
+        grouped::masses_of(self, &[0..self.elements.len()])
     }
 
     pub fn site_count(&self) -> u64 {
@@ -234,6 +244,10 @@ impl Grouped for Solid {
     fn group(&self, number: usize) -> [Range<usize>; 2] {
         let group = &self.groups[number];
         [group.elements.clone(), group.nodes()]
+    }
+
+    fn lumped_mass(&self, element: usize) -> f64 {
+        self.elements[element].lumped_mass()
     }
 
     fn mass_couplings(&self) -> Vec<MassCoupling> {

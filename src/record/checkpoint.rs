@@ -4,6 +4,7 @@ mod slab;
 mod solid;
 
 use std::array;
+use std::borrow::Cow;
 use std::path::Path;
 
 use hdf5::Group;
@@ -27,7 +28,20 @@ pub fn write<K: Keep, const D: usize>(
     case_id: &str,
     checkpoint: &Checkpoint<K, D>,
 ) -> Result<(), RecordError> {
-    sealed::write(path, seal(case_id), |group| put_checkpoint(group, checkpoint))
+    let planes = checkpoint.position.iter().chain(&checkpoint.velocity);
+    let planes = planes.map(|plane| Cow::Borrowed(&plane[..]));
+    write_with(path, case_id, checkpoint, planes)
+}
+
+/// The same with the planes of the positions, then those of the velocities, each of which is asked for when the one before has
+/// been written, so that no more than one need be in memory.
+pub fn write_with<'a, K: Keep, const D: usize>(
+    path: &Path,
+    case_id: &str,
+    checkpoint: &Checkpoint<K, D>,
+    planes: impl Iterator<Item = Cow<'a, [f64]>>,
+) -> Result<(), RecordError> {
+    sealed::write(path, seal(case_id), |group| put_checkpoint(group, checkpoint, planes))
 }
 
 /// Reads what [`write`] wrote for the same case, every number to the bit.
@@ -45,14 +59,19 @@ fn seal(case_id: &str) -> Seal<'_> {
 }
 
 /// Planes, an axis each.
-fn put_planes<const D: usize>(group: &Group, name: &str, unit: &str, planes: &[Vec<f64>; D]) -> hdf5::Result<()> {
+fn put_planes<'a>(
+    group: &Group,
+    name: &str,
+    unit: &str,
+    planes: impl Iterator<Item = Cow<'a, [f64]>>,
+) -> hdf5::Result<()> {
     for (axis, plane) in AXES.iter().zip(planes) {
         put(
             group,
             &format!("{name}_{axis}"),
             unit,
             &[plane.len()],
-            plane,
+            &plane,
             Packing::Plain,
         )?;
     }
@@ -69,7 +88,11 @@ fn get_planes<const D: usize>(group: &Group, name: &str) -> hdf5::Result<[Vec<f6
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoint<K, D>) -> hdf5::Result<()> {
+fn put_checkpoint<'a, K: Keep, const D: usize>(
+    group: &Group,
+    checkpoint: &Checkpoint<K, D>,
+    mut planes: impl Iterator<Item = Cow<'a, [f64]>>,
+) -> hdf5::Result<()> {
     // Taken apart by name, so that a new member cannot be forgotten here.
     let Checkpoint {
         step,
@@ -78,8 +101,9 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         step_after_next,
         longest_step,
         stability_limit,
-        position,
-        velocity,
+        // Planes of their own.
+        position: _,
+        velocity: _,
         open_interfaces,
         start: [start_potential, start_pairs, start_kinetic],
         refined_energy,
@@ -91,8 +115,8 @@ fn put_checkpoint<K: Keep, const D: usize>(group: &Group, checkpoint: &Checkpoin
         looks,
         kept,
     } = checkpoint;
-    put_planes(group, "position", "nm", position)?;
-    put_planes(group, "velocity", "nm/ps", velocity)?;
+    put_planes(group, "position", "nm", planes.by_ref().take(D))?;
+    put_planes(group, "velocity", "nm/ps", planes.by_ref().take(D))?;
     let interfaces = [open_interfaces.len()];
     put(
         group,

@@ -11,7 +11,8 @@ use super::frames::{FieldMesh, Frame, Row, Vector};
 use super::pieces::frame_path;
 use super::sealed::{self, Seal};
 
-/// What a picture is made of, field by field, so that no more than one of them need be in memory.
+/// What a picture is made of, field by field, so that no more than one of them need be in memory. Where ranks share the first
+/// three fields, all ask for each together, in this order.
 pub trait Picture<V: Vector = [f64; 2]> {
     /// Step, time (ps) and nominal strain.
     fn moment(&self) -> (u64, f64, f64);
@@ -57,6 +58,13 @@ impl<V: Vector> Picture<V> for Frame<V> {
 pub fn write_frame<V: Vector>(dir: &Path, picture: &impl Picture<V>) -> Result<(), RecordError> {
     let (step, ..) = picture.moment();
     sealed::write(&frame_path(dir, step), FRAME, |group| put_picture(group, picture))
+}
+
+/// What a rank that writes nothing takes part in while the first writes a picture.
+pub fn give_frame<V: Vector>(picture: &impl Picture<V>) {
+    picture.displacement();
+    picture.velocity();
+    picture.stress();
 }
 
 /// The cells of a picture that has its own.

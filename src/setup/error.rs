@@ -270,7 +270,7 @@ impl SetupError {
             } => {
                 let (each, fewer) = match ranks {
                     1 => (String::new(), ""),
-                    _ => (format!(" for {ranks} ranks, each of which holds it whole,"), "use fewer ranks, "),
+                    _ => (format!(" for {ranks} ranks"), "use fewer ranks, "),
                 };
                 Refusal::new(
                     Subject::Length,

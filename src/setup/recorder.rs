@@ -11,7 +11,7 @@ use crate::record::frames::{FieldMesh, Vector};
 use crate::record::rows::{Described, Rows};
 use crate::record::{self, CHECKPOINT_FILE, RecordError};
 use crate::solver::checkpoint::Checkpoint;
-use crate::solver::{self, Cost, Instruments, Moment, Observer, Progress, Solver};
+use crate::solver::{self, Cost, Instruments, Moment, Motion, Observer, Progress, Solver};
 use crate::store::{Account, Phase, Spent};
 
 /// What of a kind of specimen goes into the folder of its run.
@@ -30,9 +30,9 @@ pub trait Recorded<const D: usize>: Instruments<D, Kept: Keep> + Sized {
     fn add_row(rows: &mut RowsOf<Self, D>, reading: &Self::Reading);
 
     /// Cells and reference positions of its pictures.
-    fn field_mesh(&self) -> FieldMesh<Self::Vector>;
+    fn field_mesh(mesh: &Self::Mesh) -> FieldMesh<Self::Vector>;
 
-    /// Writes a picture into a folder.
+    /// Writes a picture into a folder, on the first rank; the others give it what it shows of their parts.
     fn write_frame(folder: &Path, moment: &Moment<Self, D>, site_volume: f64) -> Result<(), RecordError>;
 
     /// Reference volume of a site, nm^3.
@@ -102,9 +102,15 @@ impl<B: Recorded<D>, const D: usize> Observer<B, D> for Recorder<'_, RowsOf<B, D
         Ok(B::write_frame(&self.folder, moment, self.site_volume)?)
     }
 
-    fn checkpoint(&mut self, checkpoint: &Checkpoint<B::Kept, D>, cost: &Cost) -> Result<(), RunCaseError> {
+    fn checkpoint(
+        &mut self,
+        checkpoint: &Checkpoint<B::Kept, D>,
+        motion: &Motion<D>,
+        cost: &Cost,
+    ) -> Result<(), RunCaseError> {
         self.flush()?;
-        record::checkpoint::write(&self.folder.join(CHECKPOINT_FILE), &self.case_id, checkpoint)?;
+        let path = self.folder.join(CHECKPOINT_FILE);
+        record::checkpoint::write_with(&path, &self.case_id, checkpoint, motion.planes())?;
         Ok(self.account.save(&spent(cost))?)
     }
 
@@ -123,11 +129,4 @@ fn spent(cost: &Cost) -> Spent {
         core_seconds: cost.core_seconds,
         phases: cost.rows().map(phase).collect(),
     }
-}
-
-/// So many items without a gap in memory behind them.
-fn collected<T>(count: usize, items: impl Iterator<Item = T>) -> Vec<T> {
-    let mut collected = Vec::with_capacity(count);
-    collected.extend(items);
-    collected
 }

@@ -222,8 +222,8 @@ fn start_afresh<B: Recorded<D>, const D: usize>(
 
 /// Ends a solver: what publishing takes of memory must not come on top of its own.
 fn publish<B: Recorded<D>, const D: usize>(solver: Solver<B, D>, into: &Path, id: &str) -> Result<(), RecordError> {
-    let (setting, mesh) = (solver.body().setting(), solver.body().field_mesh());
-    drop(solver);
+    let setting = solver.body().setting();
+    let mesh = B::field_mesh(&solver.into_body().into_mesh());
     record::publish_series(into, id, &setting)?;
     record::publish_fields(into, id, &mesh)
 }

@@ -108,7 +108,7 @@ pub trait Body<const D: usize> {
 }
 
 /// What is read of a body in motion, and what must be kept so that reading goes on where it was left.
-pub trait Instruments<const D: usize>: Body<D> {
+pub trait Instruments<const D: usize>: Body<D> + Sized {
     type Mesh;
     /// What its elements hold at one moment.
     type Measure;
@@ -120,6 +120,9 @@ pub trait Instruments<const D: usize>: Body<D> {
     type Kept: Clone;
 
     fn mesh(&self) -> &Self::Mesh;
+
+    /// The mesh alone.
+    fn into_mesh(self) -> Self::Mesh;
 
     fn measure(&self) -> &Self::Measure;
 
@@ -134,7 +137,7 @@ pub trait Instruments<const D: usize>: Body<D> {
     /// Reads a state that has been measured; all ranks take part, and the first alone is given a reading.
     fn read(&mut self, state: &mut State<D>, totals: &Totals) -> Option<Self::Reading>;
 
-    /// What is broken; brings what elements hold to the first rank. All ranks must ask for it together.
+    /// What is broken. All ranks must ask for it together.
     fn picture(&mut self, state: &mut State<D>) -> Self::Broken;
 
     /// Interfaces that have left the intact path, ascending.

@@ -1,10 +1,8 @@
 //! Everything a run needs to go on, bit for bit, as if it had never stopped.
 
 use std::array;
-use std::mem::swap;
 
 use super::slab::Kept;
-use crate::state::State;
 
 /// State of a run between two steps. Internal units (nm, ps, eV).
 #[derive(Clone, Debug, PartialEq)]
@@ -67,13 +65,5 @@ impl<K: Default, const D: usize> Default for Checkpoint<K, D> {
             looks: 0,
             kept: K::default(),
         }
-    }
-}
-
-impl<K, const D: usize> Checkpoint<K, D> {
-    /// Exchanges positions and velocities with a state.
-    pub(super) fn lend(&mut self, state: &mut State<D>) {
-        swap(&mut self.position, &mut state.position);
-        swap(&mut self.velocity, &mut state.velocity);
     }
 }

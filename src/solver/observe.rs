@@ -39,15 +39,12 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
 
     fn snapshot<O: Observer<B, D>>(&mut self, observer: &mut O) -> Result<(), RunError<O::Error>> {
         let broken = self.body.picture(&mut self.state);
-        self.gather_motion();
-        if !self.ranks().is_first() {
-            return Ok(());
-        }
         let moment = Moment {
             step: self.clock.step,
             time: self.clock.time,
             strain: self.strain(),
             mesh: self.body.mesh(),
+            domain: self.body.domain(),
             state: &self.state,
             measure: self.body.measure(),
             broken: &broken,

@@ -1,19 +1,28 @@
 //! Who looks at a run, and what it is shown.
 
+use std::borrow::Cow;
+
 use super::body::Instruments;
 use super::checkpoint::Checkpoint;
 use super::cost::Cost;
 use super::slab::Slab;
+use crate::domain::{Domain, Of};
 use crate::state::State;
 
 /// Takes what a run gives. An error ends the run: a lost output must never go unnoticed.
 pub trait Observer<B: Instruments<D> = Slab, const D: usize = 2> {
     type Error;
     fn probe(&mut self, reading: &B::Reading) -> Result<(), Self::Error>;
+    /// Called on all ranks, which together give the first what it asks the moment for.
     fn snapshot(&mut self, moment: &Moment<B, D>) -> Result<(), Self::Error>;
-    /// All probes and snapshots up to here must be safe before the checkpoint is.
-    /// `cost` is that of this part of the run.
-    fn checkpoint(&mut self, checkpoint: &Checkpoint<B::Kept, D>, cost: &Cost) -> Result<(), Self::Error>;
+    /// All probes and snapshots up to here must be safe before the checkpoint is, which has no positions and velocities: these
+    /// are asked for one by one. `cost` is that of this part of the run.
+    fn checkpoint(
+        &mut self,
+        checkpoint: &Checkpoint<B::Kept, D>,
+        motion: &Motion<D>,
+        cost: &Cost,
+    ) -> Result<(), Self::Error>;
     /// Called at every probe, and again and again while the specimen comes to rest.
     fn progress(&mut self, progress: &Progress);
 }
@@ -26,11 +35,43 @@ pub struct Moment<'a, B: Instruments<D> = Slab, const D: usize = 2> {
     /// Nominal strain.
     pub strain: f64,
     pub mesh: &'a B::Mesh,
+    pub domain: &'a Domain,
+    /// That of this rank.
     pub state: &'a State<D>,
+    /// What the elements of this rank hold.
     pub measure: &'a B::Measure,
     pub broken: &'a B::Broken,
     /// Whether the mesh of the run changes.
     pub mesh_changes: bool,
+}
+
+/// Positions and velocities of all nodes, of which this rank holds its own.
+pub struct Motion<'a, const D: usize> {
+    pub domain: &'a Domain,
+    pub state: &'a State<D>,
+}
+
+impl<const D: usize> Motion<'_, D> {
+    /// The positions, an axis after the other, then the velocities; empty but on the first rank. All ranks must ask for each
+    /// together.
+    pub fn planes(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
+        let State { position, velocity, .. } = self.state;
+        let planes = position.iter().chain(velocity);
+        planes.map(|plane| match self.domain.ranks().count() {
+            1 => Cow::Borrowed(&plane[..]),
+            _ => Cow::Owned(self.domain.gather(Of::Nodes, |node| [plane[node]]).into_flattened()),
+        })
+    }
+
+    /// A checkpoint with these.
+    pub fn complete<K: Clone>(&self, checkpoint: &Checkpoint<K, D>) -> Checkpoint<K, D> {
+        let mut complete = checkpoint.clone();
+        let places = complete.position.iter_mut().chain(&mut complete.velocity);
+        places
+            .zip(self.planes())
+            .for_each(|(place, plane)| *place = plane.into_owned());
+        complete
+    }
 }
 
 /// How far a run is.

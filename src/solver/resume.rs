@@ -7,15 +7,20 @@ use super::body::Instruments;
 use super::checkpoint::Checkpoint;
 use super::clock::Clock;
 use super::error::SolverError;
+use super::observer::Motion;
 
 impl<B: Instruments<D>, const D: usize> Solver<B, D> {
     /// Everything that a later run needs to go on from here. All ranks must call this together; only the first has the
     /// whole.
     pub fn checkpoint(&self) -> Checkpoint<B::Kept, D> {
-        Checkpoint {
-            position: self.state.position.clone(),
-            velocity: self.state.velocity.clone(),
-            ..self.checkpoint_without_motion()
+        self.motion().complete(&self.checkpoint_without_motion())
+    }
+
+    /// Positions and velocities of all nodes.
+    pub(super) fn motion(&self) -> Motion<'_, D> {
+        Motion {
+            domain: self.body.domain(),
+            state: &self.state,
         }
     }
 
@@ -66,8 +71,12 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         self.step_after_next = checkpoint.step_after_next;
         self.longest_step = checkpoint.longest_step;
         self.stability_limit = checkpoint.stability_limit;
-        self.state.position.clone_from(position);
-        self.state.velocity.clone_from(velocity);
+        let planes = self.state.position.iter_mut().chain(&mut self.state.velocity);
+        for (plane, kept) in planes.zip(position.iter().chain(velocity)) {
+            for nodes in self.body.domain().nodes() {
+                plane[nodes.clone()].copy_from_slice(&kept[nodes]);
+            }
+        }
         self.body.restore(&checkpoint.open_interfaces, &checkpoint.kept);
         self.compute(false).map_err(|source| self.blow_up(source))?;
         self.ledger.restore(

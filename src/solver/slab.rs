@@ -89,9 +89,6 @@ impl Solver {
         settings: Settings,
     ) -> Result<Self, SolverError> {
         let start = Instant::now();
-        let mut state = State::of_mesh(&mesh, material.site_mass, settings.consistent_mass);
-        loading.pre_stretch(&mesh, &mut state);
-        loading.start(&mesh, &mut state);
         let mut setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let element = setting.element_at_crack;
         if settings.refine.is_some() {
@@ -100,6 +97,10 @@ impl Solver {
         }
         let probes = Probes::new(&mesh, material, &loading, &setting, element, &settings);
         let mut forces = Forces::shared(ranks, mesh, material, settings.summation);
+        let (mesh, mine) = (forces.mesh(), forces.domain().elements());
+        let mut state = State::of_elements(mesh, &mine, material.site_mass, settings.consistent_mass);
+        loading.pre_stretch(mesh, &mut state);
+        loading.start(mesh, &mut state);
         let refine = settings.refine;
         let refinement = refine.map(|refine| Refinement::new(refine, &forces, element, &settings));
         let held = loading.held();
@@ -150,7 +151,7 @@ impl Probes {
         let has_stress = settings.summation != Summation::Nodal;
         Self {
             interior: Interior::new(mesh),
-            thermometer: Thermometer::new(free_atoms(mesh)),
+            thermometer: Thermometer::new(free_atoms(mesh), material.site_mass),
             j_integral: has_stress.then(|| JIntegral::new(mesh, material)),
             sight: Sight::new(mesh, loading, &profile, &traction, &gauges),
             profile,
@@ -281,18 +282,25 @@ impl Body<2> for Slab {
     }
 
     fn cut_anew(&mut self, state: &mut State) {
-        let domain = self.forces.domain();
-        let State {
-            position,
-            velocity,
-            force,
-            ..
-        } = state;
-        let planes = position.iter_mut().chain(velocity).chain(force);
-        planes.for_each(|plane| domain.share_nodes(plane));
+        let before = self.forces.domain().clone();
+        let domain = &before;
         let impulses = self.loading.impulses(domain.ranks());
         let absorbed = self.loading.absorbed(domain.ranks());
         self.forces.cut_anew();
+        let State {
+            position: [x, y],
+            velocity: [velocity_x, velocity_y],
+            force: [force_x, force_y],
+            mobility: [mobility_x, mobility_y],
+            mass,
+            ..
+        } = state;
+        let planes = [
+            x, y, velocity_x, velocity_y, force_x, force_y, mobility_x, mobility_y, mass,
+        ];
+        let after = self.forces.domain();
+        after.take_over_from(&before, self.forces.mesh(), planes.map(Vec::as_mut_slice));
+        self.next.forget_inertias();
         self.loading
             .belong_to(&self.forces.domain().nodes(), &impulses, &absorbed);
     }
@@ -319,6 +327,7 @@ impl Body<2> for Slab {
             residual: super::RESIDUAL_AT_START,
             ..Target::default()
         };
+        super::share_what_rests(self.forces.domain(), state);
         relaxation::relax_unless(&mut self.forces, state, target, stop, tell).map_err(SolverError::NoRest)?;
         self.refuse_a_crack_that_ran(state)
     }
@@ -342,8 +351,11 @@ impl Body<2> for Slab {
     /// From the left edge, and from the crack plane.
     fn reference_place(&self, node: usize) -> Vec<f64> {
         let mesh = self.forces.mesh();
-        let [x, y] = mesh.node_positions();
-        vec![x[node] - self.setting.left_x, y[node] - mesh.middle_height()]
+        let element = mesh.element_of_node(node);
+        let mut corners = mesh.nodes_of(element).zip(mesh.elements[element].corners());
+        let corner = corners.find(|(corner, _)| *corner == node).map(|(_, site)| site);
+        let [x, y] = corner.map_or([f64::NAN; 2], |site| mesh.reference(site));
+        vec![x - self.setting.left_x, y - mesh.middle_height()]
     }
 
     fn place_of_element(&self, element: usize) -> Vec<f64> {

@@ -24,9 +24,10 @@ use crate::forces::solid::{self, Forces, Measure};
 use crate::lattice::fcc;
 use crate::loading::{Action, Load, Ramp, Together, mean};
 use crate::material::Material;
+use crate::mesh::grouped::masses_of;
 use crate::mesh::solid::Solid as Mesh;
 use crate::relaxation::{self, Elastic, Target};
-use crate::state::State;
+use crate::state::{State, times};
 use broken::Bonds;
 
 /// What acts on a solid and what is read of it.
@@ -90,12 +91,6 @@ impl Solver<Solid, 3> {
         settings: Settings,
     ) -> Result<Self, SolverError> {
         let start = Instant::now();
-        let masses = mesh.lumped_masses().into_iter();
-        let masses = masses.map(|mass| mass * material.site_mass).collect();
-        let mut state = State::at_rest(mesh.node_positions(), masses);
-        if settings.consistent_mass > 0.0 {
-            state.couple_masses(&mesh, settings.consistent_mass);
-        }
         let Experiment {
             actions,
             ramp,
@@ -113,9 +108,15 @@ impl Solver<Solid, 3> {
             elements: mesh.elements.len() as u64,
             represented_atoms: mesh.site_count(),
         };
-        let thermometer = Thermometer::new(atoms);
+        let thermometer = Thermometer::new(atoms, material.site_mass);
         let forces = Forces::shared(ranks, mesh, material, settings.summation);
         let forces = forces.with_consistent_mass(settings.consistent_mass);
+        let (mesh, mine) = (forces.mesh(), forces.domain().elements());
+        let masses = times(masses_of(mesh, &mine), material.site_mass);
+        let mut state = State::at_rest(mesh.node_positions_of(&mine), masses);
+        if settings.consistent_mass > 0.0 {
+            state.couple_masses(mesh, settings.consistent_mass);
+        }
         let mut loading = Together::new(actions);
         loading.keep_to(&forces.domain().nodes());
         let solid = Solid {
@@ -193,7 +194,8 @@ impl Body<3> for Solid {
 
     fn start(&self, state: &mut State<3>) {
         if let Some(ramp) = &self.ramp {
-            ramp.set(&self.forces.mesh().node_positions(), state);
+            let mine = self.forces.domain().elements();
+            ramp.set(&self.forces.mesh().node_positions_of(&mine), state);
         }
         self.loading.hold(state);
     }
@@ -236,6 +238,7 @@ impl Body<3> for Solid {
             residual: super::RESIDUAL_AT_START,
             ..Target::default()
         };
+        super::share_what_rests(self.forces.domain(), state);
         relaxation::relax_unless(self, state, target, stop, tell)
             .map(drop)
             .map_err(SolverError::NoRest)

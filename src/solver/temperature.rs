@@ -22,12 +22,17 @@ pub struct Thermometer {
     runs: Vec<[u32; 3]>,
     /// How many atoms each cell holds.
     cells: Vec<f64>,
+    /// Of an atom, eV ps^2/nm^2.
+    mass: f64,
 }
 
 impl Thermometer {
-    /// Of atoms by rising node: nodes and lattice sites.
-    pub fn new<const D: usize>(atoms: impl Iterator<Item = (usize, [i32; D])>) -> Self {
-        let mut thermometer = Self::default();
+    /// Of atoms by rising node, each of this mass: nodes and lattice sites.
+    pub fn new<const D: usize>(atoms: impl Iterator<Item = (usize, [i32; D])>, mass: f64) -> Self {
+        let mut thermometer = Self {
+            mass,
+            ..Self::default()
+        };
         let mut number_of: HashMap<[i32; D], u32> = HashMap::new();
         let mut last = [i32::MAX; D];
         for (node, site) in atoms {
@@ -55,9 +60,9 @@ impl Thermometer {
     /// Kinetic temperature, K: the motion relative to the local velocity field, [Deng2011] Eq. (3-22) with as many directions
     /// as there are. NaN where there are no atoms.
     pub fn read<const D: usize>(&self, state: &State<D>) -> f64 {
-        let Some(&[first, ..]) = self.runs.first() else {
+        if self.runs.is_empty() {
             return f64::NAN;
-        };
+        }
         let of_run = |&[first, count, _]: &[u32; 3]| {
             let (mut sums, mut squared) = ([0.0; D], 0.0);
             for node in first as usize..(first + count) as usize {
@@ -83,7 +88,7 @@ impl Thermometer {
             freedom += D as f64 * (atoms - 1.0);
         }
         if freedom > 0.0 {
-            state.mass[first as usize] * squared.max(0.0) / (freedom * BOLTZMANN)
+            self.mass * squared.max(0.0) / (freedom * BOLTZMANN)
         } else {
             f64::NAN
         }
@@ -107,7 +112,7 @@ mod tests {
             (node, site)
         });
         let places = std::array::from_fn(|_| vec![0.0; count]);
-        (Thermometer::new(sites), State::at_rest(places, vec![2.0; count]))
+        (Thermometer::new(sites, 2.0), State::at_rest(places, vec![2.0; count]))
     }
 
     fn rigid_motion_is_cold_and_random_motion_has_the_temperature_of_its_energy<const D: usize>() {
@@ -131,6 +136,6 @@ mod tests {
         rigid_motion_is_cold_and_random_motion_has_the_temperature_of_its_energy::<2>();
         rigid_motion_is_cold_and_random_motion_has_the_temperature_of_its_energy::<3>();
         let nobody = std::iter::empty::<(usize, [i32; 3])>();
-        assert!(Thermometer::new(nobody).read(&atoms::<3>(2).1).is_nan());
+        assert!(Thermometer::new(nobody, 2.0).read(&atoms::<3>(2).1).is_nan());
     }
 }

@@ -70,7 +70,7 @@ pub struct Outcome {
     /// lattice, and from before it was told.
     #[serde(default)]
     pub closest_approach_spacings: Option<f64>,
-    /// Largest memory of the last attempt; `None` where the system does not tell.
+    /// Largest memory of any rank in the last attempt; `None` where the system does not tell.
     pub peak_memory_bytes: Option<u64>,
     /// Time that processors worked for all ranks and threads of all attempts, s; `None` from before it was measured.
     #[serde(default)]

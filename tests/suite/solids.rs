@@ -20,7 +20,9 @@ use cgaft::mesh::solid::{Plan, Solid as Mesh};
 use cgaft::potential::{AtCutoff, CutPotential, Interaction};
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::solid::{Experiment, Extension, Gauge, Kept, Row};
-use cgaft::solver::{Cost, Ending, Moment, Observer, Progress, Settings, Solid, Solver, TimeStep, Until};
+use cgaft::solver::{
+    Cost, Ending, Moment, Motion, Observer, Progress, Settings, Solid, Solver, TimeStep, Until,
+};
 
 use super::specimens::LENNARD_JONES;
 
@@ -209,8 +211,8 @@ impl Observer<Solid, 3> for Keeper {
         self.snapshots.push(moment.step);
         Ok(())
     }
-    fn checkpoint(&mut self, checkpoint: &Checkpoint<Kept, 3>, _: &Cost) -> Result<(), Infallible> {
-        self.checkpoints.push(checkpoint.clone());
+    fn checkpoint(&mut self, checkpoint: &Checkpoint<Kept, 3>, motion: &Motion<3>, _: &Cost) -> Result<(), Infallible> {
+        self.checkpoints.push(motion.complete(checkpoint));
         Ok(())
     }
     fn progress(&mut self, progress: &Progress) {

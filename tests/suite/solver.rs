@@ -22,7 +22,7 @@ use cgaft::mesh::Mesh;
 use cgaft::potential::AtCutoff;
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::{
-    Cost, Ending, Moment, Observer, Progress, Reading, Settings, Solver, SolverError, TimeStep, Until,
+    Cost, Ending, Moment, Motion, Observer, Progress, Reading, Settings, Solver, SolverError, TimeStep, Until,
 };
 
 use super::specimens::{all_meshes, lennard_jones, nearest_neighbours, slab};
@@ -47,8 +47,8 @@ impl Observer for Keeper {
         self.snapshots.push(moment.step);
         Ok(())
     }
-    fn checkpoint(&mut self, checkpoint: &Checkpoint, _: &Cost) -> Result<(), Infallible> {
-        self.checkpoints.push(checkpoint.clone());
+    fn checkpoint(&mut self, checkpoint: &Checkpoint, motion: &Motion<2>, _: &Cost) -> Result<(), Infallible> {
+        self.checkpoints.push(motion.complete(checkpoint));
         Ok(())
     }
     fn progress(&mut self, _: &Progress) {}
@@ -184,8 +184,13 @@ fn a_run_from_a_checkpoint_ends_with_the_same_bits() {
                 fn snapshot(&mut self, moment: &Moment) -> Result<(), Infallible> {
                     self.0.snapshot(moment)
                 }
-                fn checkpoint(&mut self, checkpoint: &Checkpoint, cost: &Cost) -> Result<(), Infallible> {
-                    self.0.checkpoint(checkpoint, cost)
+                fn checkpoint(
+                    &mut self,
+                    checkpoint: &Checkpoint,
+                    motion: &Motion<2>,
+                    cost: &Cost,
+                ) -> Result<(), Infallible> {
+                    self.0.checkpoint(checkpoint, motion, cost)
                 }
                 fn progress(&mut self, _: &Progress) {}
             }

@@ -196,19 +196,18 @@ impl<'a> Joints<'a> {
 }
 
 fn faces(mesh: &Solid, interfaces: &Interfaces) -> Vec<Face> {
-    let pairs = (0..).zip(interfaces.pairs.iter().zip(&interfaces.borders));
-    let face = |(number, ([first, second], border)): (u32, (&[u32; 2], &u8))| {
-        if interfaces.severed.binary_search(&number).is_ok() && is_severed(mesh, [*first, *second]) {
+    let face = |(number, ([first, second], border)): (u32, ([u32; 2], usize))| {
+        if interfaces.severed.binary_search(&number).is_ok() && is_severed(mesh, [first, second]) {
             return None;
         }
         let Contact::Face {
             tetrahedron,
             octahedron,
-        } = BORDERS[usize::from(*border)].contact
+        } = BORDERS[border].contact
         else {
             return None;
         };
-        let sides = [(*first as usize, tetrahedron), (*second as usize, octahedron)];
+        let sides = [(first as usize, tetrahedron), (second as usize, octahedron)];
         let sites = sides.map(|(element, corners)| {
             let all = mesh.elements[element].corners();
             corners.map(|corner| mesh.elements[element].site(all[usize::from(corner)]))
@@ -218,12 +217,12 @@ fn faces(mesh: &Solid, interfaces: &Interfaces) -> Vec<Face> {
         let planes: [fn([i32; 3]) -> i32; FAMILIES] = PLANES;
         Some(Face {
             nodes: sides.map(|(element, corners)| corners.map(|corner| mesh.node(element, usize::from(corner)) as u32)),
-            size: mesh.elements[*first as usize].size,
+            size: mesh.elements[first as usize].size,
             family: planes.into_iter().position(is_constant).unwrap_or_default(),
             middle: [0, 1, 2].map(|axis| 0.5 * (places[0][axis] + places[1][axis])),
         })
     };
-    pairs.filter_map(face).collect()
+    (0..).zip(interfaces.pairs()).filter_map(face).collect()
 }
 
 /// Whether a cut severs most of the bonds between two elements.

@@ -4,6 +4,7 @@ use rayon::prelude::*;
 
 use super::super::affine::site_position;
 use super::super::interface::State;
+use super::super::loosened::Loosened;
 use super::super::summation::Summation;
 use super::super::{CHUNK, Planes};
 use super::Contacts;
@@ -29,21 +30,19 @@ pub struct Field<'a> {
     pub unlisted: f64,
 }
 
-/// Triangles that may meet something other than their intact neighbours, ascending, where these interfaces are not tight.
-pub fn searched(mesh: &Mesh, interfaces: &Interfaces, loosened: &[u32]) -> Vec<u32> {
-    let loosened = loosened.iter().map(|&number| number as usize);
-    let beside = loosened.flat_map(|number| interfaces.pairs[number].both());
-    let mut is_searched = vec![false; mesh.triangles];
-    for triangle in interfaces.exposed.iter().copied().chain(beside) {
-        is_searched[triangle as usize] = true;
-    }
-    let numbers = 0..mesh.triangles as u32;
-    numbers.filter(|&triangle| is_searched[triangle as usize]).collect()
+/// Triangles of the whole mesh that may meet something other than their intact neighbours, ascending, where these interfaces
+/// are not tight.
+pub fn searched(interfaces: &Interfaces, loosened: &[Loosened]) -> Vec<u32> {
+    let beside = loosened.iter().flat_map(|known| known.both);
+    let mut searched: Vec<u32> = interfaces.exposed().iter().copied().chain(beside).collect();
+    searched.sort_unstable();
+    searched.dedup();
+    searched
 }
 
 impl Field<'_> {
     /// Those of some triangles that may come within a distance of other triangles to which no intact interface joins them,
-    /// or of atoms, and what bounds all that they meet.
+    /// or of atoms, and what bounds all that they meet. Of two triangles one is of this rank.
     fn meeting(&self, triangles: &[u32], atoms: &[u32], distance: f64, position: &Planes) -> Vec<(u32, Bounds)> {
         let corners_of = |&triangle: &u32| {
             let nodes = self.mesh.corners_of(triangle as usize);
@@ -58,10 +57,15 @@ impl Field<'_> {
         let bounds: Vec<Bounds> = corners.iter().map(|corners| around(corners)).collect();
         let boxes = Boxes::new(&bounds, distance);
         let mut met = vec![Bounds::NOTHING; triangles.len()];
+        let is_mine: Vec<bool> = triangles
+            .iter()
+            .map(|&triangle| self.domain.is_mine(triangle as usize))
+            .collect();
         for one in 0..triangles.len() {
             let near = bounds[one].widened(distance);
             boxes.for_each_near(&near, |other| {
                 if other > one
+                    && (is_mine[one] || is_mine[other])
                     && near.overlaps(&bounds[other])
                     && !are_apart(&corners[one], &corners[other], distance)
                     && !self.summed_elsewhere(triangles[one], triangles[other])
@@ -172,25 +176,23 @@ impl Contacts {
         let triangles = field.mesh.triangles;
         let my_atoms = field.domain.atoms();
         let counts: Vec<u32> = lists.iter().flat_map(|(counts, _)| counts).copied().collect();
-        let mut contacts = Self {
-            of_triangle: vec![0; triangles + 1],
-            ..Self::default()
-        };
+        let mut contacts = Self::default();
         let met = candidates.others_met(field, lists);
         let mut number = Vec::with_capacity(candidates.element.len());
         for candidate in 0..candidates.carried {
             number.push(contacts.carrier.len());
             if counts[candidate] > 0 || met.binary_search(&(candidate as u32)).is_ok() {
-                contacts.carrier.push(candidates.element[candidate]);
+                let triangle = candidates.element[candidate];
+                if contacts.of_triangle.last().is_none_or(|&[last, _]| last != triangle) {
+                    contacts.of_triangle.push([triangle, contacts.carrier.len() as u32]);
+                }
+                contacts.carrier.push(triangle);
                 contacts.local.push(candidates.local[candidate]);
-                contacts.of_triangle[candidates.element[candidate] as usize + 1] += 1;
             }
         }
         let carried = contacts.carrier.len();
         number.extend(atoms.candidates.iter().map(|&atom| carried + atom as usize));
-        for triangle in 0..triangles {
-            contacts.of_triangle[triangle + 1] += contacts.of_triangle[triangle];
-        }
+        contacts.of_triangle.push([triangles as u32, carried as u32]);
         contacts.needed = met
             .iter()
             .map(|&candidate| candidates.element[candidate as usize])

@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use super::Planes;
 use super::extents::{Directions, Extents};
 use super::grid::Grid;
+use crate::domain::Domain;
 use crate::mesh::solid::Solid;
 use crate::mesh::solid::interfaces::{Interfaces, Side};
 
@@ -26,22 +27,33 @@ pub struct Scene<'a> {
     pub mesh: &'a Solid,
     pub interfaces: &'a Interfaces,
     pub position: &'a Planes,
-    /// Whether each interface is intact and will not open soon.
-    pub is_firm: &'a [bool],
+    /// Whose points are sought.
+    pub domain: &'a Domain,
+    /// Interfaces that are open or may open soon, ascending.
+    pub not_firm: &'a [u32],
     /// The radius of the lists, nm.
     pub radius: f64,
 }
 
-impl Exposed {
-    pub fn new(scene: &Scene) -> Self {
-        let Scene { mesh, interfaces, .. } = *scene;
-        let numbers = (0..).zip(scene.is_firm);
-        let not_firm = numbers.filter(|(_, is_firm)| !**is_firm).map(|(number, _)| number);
-        let of_pairs = not_firm.flat_map(|number: u32| {
-            interfaces.pairs[number as usize].map(|part| (part, interfaces.side(number, part)))
+/// Parts that have a side which is free or along which something else lies.
+pub struct Sides {
+    /// Ascending.
+    pub parts: Vec<u32>,
+    /// Each side along which something else lies or may come to lie.
+    of_others: Vec<(u32, Side)>,
+    /// The free sides of each part that has any.
+    free: Vec<(u32, Vec<Side>)>,
+}
+
+impl Sides {
+    /// Of the whole solid, whatever has moved where.
+    pub fn new(interfaces: &Interfaces, not_firm: &[u32]) -> Self {
+        let of_pairs = not_firm.iter().flat_map(|&number| {
+            let pair = interfaces.pair(number);
+            pair.map(|part| (part, interfaces.side(number, part)))
         });
         let lonely = interfaces.lonely.iter().filter(|side| !side.is_free);
-        let mut sides: Vec<(u32, Side)> = of_pairs.chain(lonely.map(|side| (side.element, side.side))).collect();
+        let of_others: Vec<(u32, Side)> = of_pairs.chain(lonely.map(|side| (side.element, side.side))).collect();
         let free: Vec<(u32, Vec<Side>)> = interfaces
             .lonely
             .chunk_by(|one, other| one.element == other.element)
@@ -51,10 +63,49 @@ impl Exposed {
                 (!free.is_empty()).then_some((of_part[0].element, free))
             })
             .collect();
-        let mut parts: Vec<u32> = sides.iter().map(|side| side.0).collect();
+        let mut parts: Vec<u32> = of_others.iter().map(|side| side.0).collect();
         parts.extend(free.iter().map(|side| side.0));
         parts.sort_unstable();
         parts.dedup();
+        Self { parts, of_others, free }
+    }
+
+    /// Those of a rank, and those of others that come within a distance of any of these.
+    fn near(mut self, scene: &Scene) -> Self {
+        let (domain, radius) = (scene.domain, scene.radius);
+        if domain.count() == 1 {
+            return self;
+        }
+        let directions = Directions::new(&scene.mesh.sites.frame);
+        let is_mine = |part: u32| domain.is_mine(part as usize);
+        let extents = |part: u32| extents_of(scene, &directions, part);
+        let own = self.parts.iter().filter(|&&part| is_mine(part));
+        let own = own.map(|&part| extents(part)).reduce(|all, one| all.and(&one));
+        // Atoms of this rank meet the sites of others' parts, too.
+        let [_, atoms] = domain.nodes();
+        let of_atoms = (!atoms.is_empty()).then(|| {
+            let place = |node: usize| scene.position.each_ref().map(|plane| plane[node]);
+            Extents::of(&directions, atoms.map(place))
+        });
+        let own = own.into_iter().chain(of_atoms).reduce(|all, one| all.and(&one));
+        let is_near = |part: u32| is_mine(part) || own.is_some_and(|own| !own.are_apart(&extents(part), radius));
+        self.parts = self.parts.into_par_iter().filter(|&part| is_near(part)).collect();
+        let is_kept = |part: u32| self.parts.binary_search(&part).is_ok();
+        self.of_others.retain(|side| is_kept(side.0));
+        self.free.retain(|side| is_kept(side.0));
+        self
+    }
+}
+
+impl Exposed {
+    /// What may meet the sites of a rank, and these, among the sides of the whole solid, whose places must be known.
+    pub fn new(scene: &Scene, sides: Sides) -> Self {
+        let Scene { mesh, interfaces, .. } = *scene;
+        let Sides {
+            parts,
+            of_others: mut sides,
+            free,
+        } = sides.near(scene);
         let neighbourhood = Neighbourhood::new(scene, &parts);
         let near: Vec<Vec<(u32, [i32; 3])>> = free
             .par_iter()
@@ -72,6 +123,12 @@ impl Exposed {
     }
 }
 
+fn extents_of(scene: &Scene, directions: &Directions, part: u32) -> Extents {
+    let nodes = scene.mesh.nodes_of(part as usize);
+    let places = nodes.map(|node| scene.position.each_ref().map(|plane| plane[node]));
+    Extents::of(directions, places)
+}
+
 /// Where parts are, and atoms.
 struct Neighbourhood<'a> {
     parts: &'a [u32],
@@ -87,13 +144,7 @@ impl<'a> Neighbourhood<'a> {
     fn new(scene: &Scene, parts: &'a [u32]) -> Self {
         let Scene { mesh, position, .. } = *scene;
         let directions = Directions::new(&mesh.sites.frame);
-        let of_part = |&part: &u32| {
-            let nodes = mesh.nodes_of(part as usize);
-            Extents::of(
-                &directions,
-                nodes.map(|node| position.each_ref().map(|plane| plane[node])),
-            )
-        };
+        let of_part = |&part: &u32| extents_of(scene, &directions, part);
         let extents: Vec<Extents> = parts.par_iter().map(of_part).collect();
         let cubes: Vec<([f64; 3], f64)> = extents.iter().map(Extents::cube).collect();
         let width = scene.radius + cubes.iter().fold(0.0, |widest, cube| f64::max(widest, cube.1));
@@ -130,16 +181,15 @@ impl<'a> Neighbourhood<'a> {
             .interfaces
             .of(part as usize)
             .iter()
-            .filter(|&&number| scene.is_firm[number as usize]);
-        let joined: Vec<u32> = firm
-            .flat_map(|&number| scene.interfaces.pairs[number as usize])
-            .collect();
+            .filter(|number| scene.not_firm.binary_search(number).is_err());
+        let joined: Vec<u32> = firm.flat_map(|&number| scene.interfaces.pair(number)).collect();
         let mut near = Vec::new();
         self.grid.near(middle, |other| {
             let extents = &self.extents[other as usize];
             if !own.are_apart(extents, radius) {
                 let other = self.parts[other as usize];
-                if other != part && !joined.contains(&other) {
+                let is_wanted = scene.domain.is_mine(part as usize) || scene.domain.is_mine(other as usize);
+                if is_wanted && other != part && !joined.contains(&other) {
                     near.push(extents);
                 }
             }

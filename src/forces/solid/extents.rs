@@ -57,6 +57,15 @@ impl Extents {
         Self { least, most }
     }
 
+    /// Those of the places of both.
+    pub fn and(mut self, other: &Self) -> Self {
+        for number in 0..COUNT {
+            self.least[number] = self.least[number].min(other.least[number]);
+            self.most[number] = self.most[number].max(other.most[number]);
+        }
+        self
+    }
+
     /// Whether some direction shows that all places of one are farther than this from all of the other.
     #[inline(always)]
     pub fn are_apart(&self, other: &Self, distance: f64) -> bool {

@@ -35,8 +35,11 @@ impl Measure {
         self.planes.each_mut()
     }
 
+    /// Makes room for so many elements, untouched zeros where nothing has been measured.
     pub(super) fn fit(&mut self, elements: usize) {
-        self.planes.iter_mut().for_each(|plane| plane.resize(elements, 0.0));
+        if self.planes[0].len() != elements {
+            self.planes = self.planes.each_ref().map(|_| vec![0.0; elements]);
+        }
     }
 }
 

@@ -17,6 +17,7 @@ use super::measure::PARTS;
 use super::points::Points;
 use crate::forces::close::{Close, Crowd};
 use crate::lanes::MOST;
+use crate::mesh::solid::Solid;
 use crate::potential::{CutPotential, PairShape};
 
 /// Where the point is that stands for no partner: too far away for anything.
@@ -60,14 +61,31 @@ pub struct Scene<'a> {
     /// The elements of this rank, all in groups and all atoms.
     pub elements: [Range<usize>; 2],
     pub watched: Vec<Range<usize>>,
+    /// Parts that carry points or may come near any.
+    pub parts: &'a [u32],
+    pub mesh: &'a Solid,
     pub position: &'a Planes,
     pub lengths: Lengths,
+}
+
+impl Scene<'_> {
+    /// Where the nodes of the parts and of all atoms are; the others are untouched zeros, which take no memory.
+    fn places(&self) -> Planes {
+        self.position.each_ref().map(|plane| {
+            let mut places = vec![0.0; plane.len()];
+            let of_parts = self.parts.iter().flat_map(|&part| self.mesh.nodes_of(part as usize));
+            let all = of_parts.chain(self.mesh.part_nodes()..plane.len());
+            all.for_each(|node| places[node] = plane[node]);
+            places
+        })
+    }
 }
 
 impl Pairs {
     /// Lists the partners of the points of this rank; `joined` puts the parts that intact interfaces join to a part in place of
     /// what it is given.
     pub fn search(scene: Scene, joined: impl Fn(u32, &mut Vec<u32>) + Sync) -> Self {
+        let places_then = scene.places();
         let Scene {
             points,
             ready,
@@ -75,6 +93,7 @@ impl Pairs {
             watched,
             position,
             lengths,
+            ..
         } = scene;
         let then: Vec<[f64; 3]> = (0..points.len())
             .into_par_iter()
@@ -92,7 +111,7 @@ impl Pairs {
             followed: Vec::new(),
             bonded: Lists::default(),
             severed: Lists::default(),
-            then: position.clone(),
+            then: places_then,
             watched,
             drift: Drift::default(),
             lengths,

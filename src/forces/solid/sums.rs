@@ -7,16 +7,17 @@ use std::time::Instant;
 use rayon::prelude::*;
 
 use super::drift::{Lengths, Moments};
-use super::exposed::{self, Exposed};
+use super::exposed::{self, Exposed, Sides};
 use super::measure::PARTS;
 use super::pairs::{self, Pairs};
 use super::points::Points;
 use super::strained::{self, Strained};
 use super::sweep::{self, Field, Sweep, Tile};
 use super::{ForceError, Forces, Measure, Planes};
-use crate::domain::{Call, Halo};
+use crate::domain::{Call, Halo, Of};
 use crate::forces::close::{self, Crowd};
 use crate::lanes::MOST;
+use crate::mesh::solid::interfaces::Run;
 use crate::potential::{CutPotential, PairShape, with_law};
 
 /// Runs of interfaces in one parallel task.
@@ -171,32 +172,31 @@ impl Forces {
         !self.domain.hears(Call::ListOutdated)
     }
 
-    /// Makes new lists of neighbours. Anything may have come near, so all ranks learn all positions.
+    /// Makes new lists of neighbours. Anything that has a side open may have come near, so all ranks learn where all of that is.
     fn search(&mut self, position: &mut Planes) -> Result<(), ForceError> {
+        self.check_sound(position)?;
+        let ready = in_order(self.domain.ranks().join(self.strained(position)));
+        let not_firm = in_order([self.open_interfaces(), ready.clone()].concat());
+        let sides = Sides::new(&self.interfaces, &not_firm);
         let start = Instant::now();
-        position.iter_mut().for_each(|axis| self.domain.share_nodes(axis));
+        self.share(&sides.parts, position);
         let shared = Instant::now();
-        // Written so that a position that is not a number is refused.
-        let is_near = |node: &usize| position.iter().all(|plane| plane[*node].abs() <= self.farthest);
-        if let Some(node) = (0..self.mesh.node_count()).find(|node| !is_near(node)) {
-            let element = self.mesh.element_of_node(node);
-            return Err(ForceError::FlewAway { element });
-        }
         let lengths = Lengths::new(self.material.interaction.cutoff(), self.material.spacing);
-        let ready = self.strained(position);
-        let mut is_firm: Vec<bool> = self.intact.iter().map(|&intact| intact > 0.0).collect();
-        ready.iter().for_each(|&number| is_firm[number as usize] = false);
-        let exposed = Exposed::new(&exposed::Scene {
+        let scene = exposed::Scene {
             mesh: &self.mesh,
             interfaces: &self.interfaces,
+            domain: &self.domain,
             position,
-            is_firm: &is_firm,
+            not_firm: &not_firm,
             radius: lengths.radius,
-        });
+        };
+        let exposed = Exposed::new(&scene, sides);
         let pairs = Pairs::search(
             pairs::Scene {
                 points: Points::new(&self.mesh, &exposed.sites),
                 watched: self.watched(&exposed.parts),
+                parts: &exposed.parts,
+                mesh: &self.mesh,
                 ready,
                 elements: self.domain.elements(),
                 position,
@@ -216,11 +216,43 @@ impl Forces {
         Ok(())
     }
 
-    /// Intact interfaces that may open before the next search, ascending.
+    /// Refuses positions that are no numbers or far away.
+    fn check_sound(&self, position: &Planes) -> Result<(), ForceError> {
+        // Written so that a position that is not a number is refused.
+        let is_near = |node: &usize| position.iter().all(|plane| plane[*node].abs() <= self.farthest);
+        let mut own = self.domain.nodes().into_iter().flatten();
+        let node = own.find(|node| !is_near(node)).map_or(u64::MAX, |node| node as u64);
+        // All ranks tell the same error, that of the first node.
+        match self.domain.ranks().least(node) {
+            u64::MAX => Ok(()),
+            node => Err(ForceError::FlewAway {
+                element: self.mesh.element_of_node(node as usize),
+            }),
+        }
+    }
+
+    /// Brings the positions of some parts and of all atoms to all ranks.
+    fn share(&self, parts: &[u32], position: &mut Planes) {
+        let others = parts.iter().filter(|&&part| !self.domain.is_mine(part as usize));
+        let others: Vec<u32> = others.copied().collect();
+        let mut halo = Halo::ask(&self.domain, &self.mesh, &others);
+        halo.bring(&self.domain, Of::Nodes, position.each_mut().map(Vec::as_mut_slice));
+        position.iter_mut().for_each(|axis| self.domain.share_atoms(axis));
+    }
+
+    /// Intact interfaces of this rank that may open before the next search.
     fn strained(&self, position: &Planes) -> Vec<u32> {
         let longer = strained::LONG * self.material.spacing;
         let nearer = strained::NEAR * self.material.interaction.cutoff();
-        let runs = self.interfaces.runs.par_chunks(RUNS_IN_A_TASK);
+        let mine = self.domain.grouped();
+        let runs: Vec<Run> = self
+            .interfaces
+            .runs
+            .iter()
+            .copied()
+            .filter(|run| run.touches(&mine))
+            .collect();
+        let runs = runs.par_chunks(RUNS_IN_A_TASK);
         let found = runs.flat_map_iter(|runs| {
             self.arch.dispatch(Strained {
                 mesh: &self.mesh,
@@ -231,9 +263,7 @@ impl Forces {
                 nearer: nearer * nearer,
             })
         });
-        let mut strained: Vec<u32> = found.collect();
-        strained.sort_unstable();
-        strained
+        found.collect()
     }
 
     /// Own nodes of these parts, and of all own atoms.
@@ -291,6 +321,12 @@ impl Forces {
             }
         }
     }
+}
+
+fn in_order(mut numbers: Vec<u32>) -> Vec<u32> {
+    numbers.sort_unstable();
+    numbers.dedup();
+    numbers
 }
 
 fn split_off<'a>(plane: &mut &'a mut [f64], length: usize) -> &'a mut [f64] {

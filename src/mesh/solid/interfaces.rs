@@ -1,6 +1,9 @@
 //! Which parts of blocks lie side by side, and where something else or nothing does.
 
 use std::collections::HashMap;
+use std::ops::Range;
+
+use fixedbitset::FixedBitSet;
 
 use super::Solid;
 use super::element::{Element, Shape};
@@ -20,6 +23,18 @@ pub struct Run {
     /// The first of the parts on either side.
     pub first: usize,
     pub second: usize,
+}
+
+impl Run {
+    /// The parts on both sides of one of its interfaces.
+    pub fn pair(&self, number: usize) -> [u32; 2] {
+        [self.first, self.second].map(|first| (first + number - self.number) as u32)
+    }
+
+    /// Whether its parts on either side are among some, which start and end with groups.
+    pub fn touches(&self, parts: &Range<usize>) -> bool {
+        parts.contains(&self.first) || parts.contains(&self.second)
+    }
 }
 
 /// A side of a part along which there is no part of the same size.
@@ -74,24 +89,57 @@ impl Side {
 #[derive(Clone, Debug, Default)]
 pub struct Interfaces {
     pub runs: Vec<Run>,
-    /// The parts on both sides of each interface.
-    pub pairs: Vec<[u32; 2]>,
-    /// Place of each among [`BORDERS`].
-    pub borders: Vec<u8>,
     /// Those with first or second neighbours across them that a cut severs, ascending by number.
     pub severed: Vec<u32>,
     /// Ascending by element.
     pub lonely: Vec<Lonely>,
-    starts: Vec<u32>,
+    /// For every part where its interfaces start and end among those listed. Untouched, and so not in memory, for those that
+    /// border on none of some parts.
+    ranges: Vec<[u32; 2]>,
     of_part: Vec<u32>,
     facing: HashMap<(i32, Side), Vec<[i32; 3]>>,
+}
+
+/// The groups of parts by shape, size and row.
+struct Numbers(HashMap<(Shape, i32, [i32; 2]), Vec<u32>>);
+
+impl Numbers {
+    fn new(mesh: &Solid) -> Self {
+        let mut groups: HashMap<(Shape, i32, [i32; 2]), Vec<u32>> = HashMap::new();
+        for (number, group) in (0..).zip(mesh.groups()) {
+            let [_, j, k] = mesh.elements[group.elements.start].anchor;
+            groups
+                .entry((group.shape, group.size, [j, k]))
+                .or_default()
+                .push(number);
+        }
+        Self(groups)
+    }
+
+    /// The number of a part; `None` where it is not there.
+    fn of(&self, mesh: &Solid, element: Element) -> Option<u32> {
+        let [i, j, k] = element.anchor;
+        let groups = self.0.get(&(element.shape, element.size, [j, k]))?;
+        groups.iter().find_map(|&number| {
+            let group = &mesh.groups()[number as usize];
+            let along = i - mesh.elements[group.elements.start].anchor[0];
+            let place = along / element.size;
+            let is_there = along >= 0 && along % element.size == 0 && (place as usize) < group.len();
+            is_there.then(|| (group.elements.start + place as usize) as u32)
+        })
+    }
 }
 
 impl Interfaces {
     /// `reach` is that of the potential, in spacings.
     pub fn new(mesh: &Solid, reach: f64) -> Self {
+        Self::listed_for(mesh, reach, 0..mesh.parts)
+    }
+
+    /// The same, where only the interfaces of some parts, which start and end with groups, are listed one by one.
+    pub fn listed_for(mesh: &Solid, reach: f64, listed: Range<usize>) -> Self {
         let parts = &mesh.elements[..mesh.parts];
-        let numbers: HashMap<Element, u32> = parts.iter().copied().zip(0..).collect();
+        let numbers = Numbers::new(mesh);
         let mut interfaces = Self {
             facing: facing(parts, reach),
             ..Self::default()
@@ -107,20 +155,18 @@ impl Interfaces {
                 }
             }
         }
-        interfaces.list_by_part(mesh.parts);
+        interfaces.list_by_part(mesh.parts, &listed);
         interfaces.find_lonely(mesh, &numbers);
         interfaces.find_severed(mesh);
         interfaces
     }
 
-    fn add_runs(&mut self, mesh: &Solid, numbers: &HashMap<Element, u32>, parts: std::ops::Range<usize>, side: Side) {
+    fn add_runs(&mut self, mesh: &Solid, numbers: &Numbers, parts: Range<usize>, side: Side) {
         for first in parts {
-            let Some(&second) = numbers.get(&side.other(mesh.elements[first])) else {
+            let Some(second) = numbers.of(mesh, side.other(mesh.elements[first])) else {
                 continue;
             };
-            let number = self.pairs.len();
-            self.pairs.push([first as u32, second]);
-            self.borders.push(side.border);
+            let number = self.count();
             let second = second as usize;
             let goes_on = |run: &&mut Run| {
                 let follows = run.first + run.len == first && run.second + run.len == second;
@@ -141,31 +187,66 @@ impl Interfaces {
         }
     }
 
-    fn list_by_part(&mut self, parts: usize) {
-        let mut counts = vec![0u32; parts + 1];
-        self.pairs
-            .iter()
-            .flatten()
-            .for_each(|&part| counts[part as usize + 1] += 1);
-        (0..parts).for_each(|part| counts[part + 1] += counts[part]);
-        let mut next = counts.clone();
-        self.of_part = vec![0; 2 * self.pairs.len()];
-        for (number, pair) in (0..).zip(&self.pairs) {
-            for &part in pair {
-                self.of_part[next[part as usize] as usize] = number;
-                next[part as usize] += 1;
+    fn list_by_part(&mut self, parts: usize, listed: &Range<usize>) {
+        let runs = || self.runs.iter().filter(|run| run.touches(listed));
+        let pairs = || {
+            runs().flat_map(|run| (run.number..run.number + run.len).map(|number| (number as u32, run.pair(number))))
+        };
+        let mut ranges = vec![[0; 2]; parts];
+        pairs().for_each(|(_, pair)| pair.iter().for_each(|&part| ranges[part as usize][1] += 1));
+        let mut total = 0;
+        let mut of_part = vec![0; 2 * pairs().count()];
+        // A part finds its place when it is first met.
+        let mut is_placed = FixedBitSet::with_capacity(parts);
+        for part in pairs().flat_map(|(_, pair)| pair) {
+            if !is_placed.put(part as usize) {
+                let [start, end] = &mut ranges[part as usize];
+                *start = total;
+                total += *end;
+                *end = *start;
             }
         }
-        self.starts = counts;
+        for (number, pair) in pairs() {
+            for part in pair {
+                let [_, end] = &mut ranges[part as usize];
+                of_part[*end as usize] = number;
+                *end += 1;
+            }
+        }
+        (self.ranges, self.of_part) = (ranges, of_part);
     }
 
-    fn find_lonely(&mut self, mesh: &Solid, numbers: &HashMap<Element, u32>) {
+    /// How many there are.
+    pub fn count(&self) -> usize {
+        self.runs.last().map_or(0, |run| run.number + run.len)
+    }
+
+    fn run_of(&self, number: u32) -> &Run {
+        let after = self.runs.partition_point(|run| run.number <= number as usize);
+        &self.runs[after - 1]
+    }
+
+    /// The parts on both sides of an interface.
+    pub fn pair(&self, number: u32) -> [u32; 2] {
+        self.run_of(number).pair(number as usize)
+    }
+
+    /// The parts on both sides of each interface, and its place among [`BORDERS`].
+    pub fn pairs(&self) -> impl Iterator<Item = ([u32; 2], usize)> {
+        let of_run = |run: &Run| {
+            let run = *run;
+            (run.number..run.number + run.len).map(move |number| (run.pair(number), run.border))
+        };
+        self.runs.iter().flat_map(of_run)
+    }
+
+    fn find_lonely(&mut self, mesh: &Solid, numbers: &Numbers) {
         let sides: Vec<Side> = Side::all().collect();
         let parts = &mesh.elements[..mesh.parts];
         for (number, &element) in (0..).zip(parts) {
             for &side in sides.iter().filter(|side| side.own_shape() == element.shape) {
                 let other = side.other(element);
-                if !numbers.contains_key(&other) {
+                if numbers.of(mesh, other).is_none() {
                     let theirs = opposite(side);
                     let mut beyond = self.facing[&(element.size, theirs)].iter();
                     let is_free = !beyond.any(|&local| mesh.sites.contains(other.site(local)));
@@ -183,12 +264,12 @@ impl Interfaces {
         if mesh.sites.cut.is_none() {
             return;
         }
-        let is_severed = |&number: &u32| {
-            let [first, second] = self.pairs[number as usize];
+        let is_severed = |(number, [first, second]): (u32, [u32; 2])| {
             let facing = self.facing(mesh.elements[first as usize], self.side(number, first));
-            severed::is_severed_between(mesh, first, second, facing)
+            severed::is_severed_between(mesh, first, second, facing).then_some(number)
         };
-        self.severed = (0..self.pairs.len() as u32).filter(is_severed).collect();
+        let pairs = (0..).zip(self.pairs().map(|(pair, _)| pair));
+        self.severed = pairs.filter_map(is_severed).collect();
     }
 
     /// Parts that have a side along which atoms or parts of another size lie, ascending.
@@ -199,9 +280,10 @@ impl Interfaces {
         parts
     }
 
-    /// Numbers of the interfaces of a part, ascending.
+    /// Numbers of the interfaces of a part, ascending; of a part that is not listed only those with parts that are.
     pub fn of(&self, part: usize) -> &[u32] {
-        &self.of_part[self.starts[part] as usize..self.starts[part + 1] as usize]
+        let [start, end] = self.ranges[part];
+        &self.of_part[start as usize..end as usize]
     }
 
     /// Local coordinates of the sites of a part that have neighbours or second neighbours across one of its sides.
@@ -211,9 +293,10 @@ impl Interfaces {
 
     /// An interface seen from one of its parts.
     pub fn side(&self, number: u32, part: u32) -> Side {
+        let run = self.run_of(number);
         Side {
-            border: self.borders[number as usize],
-            is_second: self.pairs[number as usize][1] == part,
+            border: run.border as u8,
+            is_second: run.pair(number as usize)[1] == part,
         }
     }
 }

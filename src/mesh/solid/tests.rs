@@ -159,8 +159,8 @@ fn borders_are_all_that_bonds_of_first_and_second_neighbours_find() {
         let nearest = bonds_by_pair(&mesh, 1);
         let second = bonds_by_pair(&mesh, 2);
         let mut found = HashMap::new();
-        for (&[first, second], &border) in interfaces.pairs.iter().zip(&interfaces.borders) {
-            let bonds = template::bonds(BORDERS[usize::from(border)].contact, n);
+        for ([first, second], border) in interfaces.pairs() {
+            let bonds = template::bonds(BORDERS[border].contact, n);
             assert_eq!(found.insert([first.min(second), first.max(second)], bonds), None);
         }
         assert!(
@@ -242,6 +242,35 @@ fn opposite_corners_of_a_border_are_neighbours() {
                 (0..2).for_each(|end| assert_eq!(squared(first[end], second[end]), 2));
             }
             Contact::Tips { first, second } => assert_eq!(squared(first, second), 2),
+        }
+    }
+}
+
+#[test]
+fn the_interfaces_listed_for_some_parts_are_theirs_among_all() {
+    let slot = Range3 {
+        from: [0, 12, 0],
+        to: [6, 18, 12],
+    };
+    let mesh = blocks([24, 30, 12], 6, vec![], vec![slot]);
+    let all = Interfaces::new(&mesh, 1.0);
+    let groups = mesh.groups();
+    for count in [2, 3] {
+        let cut = |part: usize| {
+            groups
+                .get(part * groups.len() / count)
+                .map_or(mesh.parts, |group| group.elements.start)
+        };
+        for part in 0..count {
+            let mine = cut(part)..cut(part + 1);
+            let some = Interfaces::listed_for(&mesh, 1.0, mine.clone());
+            assert_eq!((&some.runs, &some.lonely), (&all.runs, &all.lonely));
+            let is_mine = |part: &u32| mine.contains(&(*part as usize));
+            for part in 0..mesh.parts {
+                let expected = all.of(part).iter().copied();
+                let expected = expected.filter(|&number| all.pair(number).iter().any(is_mine));
+                assert!(some.of(part).iter().copied().eq(expected), "part {part} of {count}");
+            }
         }
     }
 }

@@ -3,14 +3,15 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::{Recorded, collected};
+use super::Recorded;
 use crate::analysis::series::{Series, Setting};
+use crate::domain::Of;
 use crate::lattice::triangular;
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
 use crate::record::frames::FieldMesh;
 use crate::record::{self, Picture, RecordError};
-use crate::solver::{Instruments, Moment, Reading, Slab, site_volume};
+use crate::solver::{Moment, Reading, Slab, site_volume};
 
 impl Recorded<2> for Slab {
     type Setting = Setting;
@@ -36,12 +37,19 @@ impl Recorded<2> for Slab {
         rows.bonds.extend_from_slice(&reading.bonds);
     }
 
-    fn field_mesh(&self) -> FieldMesh {
-        field_mesh(self.mesh())
+    fn field_mesh(mesh: &Mesh) -> FieldMesh {
+        field_mesh(mesh)
     }
 
     fn write_frame(folder: &Path, moment: &Moment, site_volume: f64) -> Result<(), RecordError> {
-        record::write_frame(folder, &Snapshot { moment, site_volume })
+        let picture = Snapshot { moment, site_volume };
+        match moment.domain.ranks().is_first() {
+            true => record::write_frame(folder, &picture),
+            false => {
+                record::give_frame(&picture);
+                Ok(())
+            }
+        }
     }
 
     fn site_volume(&self) -> f64 {
@@ -61,26 +69,29 @@ impl Picture for Snapshot<'_> {
     }
 
     fn displacement(&self) -> Cow<'_, [[f64; 2]]> {
-        let Moment { mesh, state, .. } = self.moment;
+        let Moment {
+            mesh, state, domain, ..
+        } = self.moment;
         let [x, y] = &state.position;
-        let [from_x, from_y] = mesh.node_positions();
-        let moved = x.iter().zip(from_x).zip(y.iter().zip(from_y));
-        let displacement = moved.map(|((x, from_x), (y, from_y))| [x - from_x, y - from_y]);
-        Cow::Owned(collected(state.nodes(), displacement))
+        let [from_x, from_y] = mesh.node_positions_of(&domain.elements());
+        let of_node = |node: usize| [x[node] - from_x[node], y[node] - from_y[node]];
+        Cow::Owned(domain.gather(Of::Nodes, of_node))
     }
 
     fn velocity(&self) -> Cow<'_, [[f64; 2]]> {
         let [x, y] = &self.moment.state.velocity;
-        Cow::Owned(x.iter().zip(y).map(|(&x, &y)| [x, y]).collect())
+        Cow::Owned(self.moment.domain.gather(Of::Nodes, |node| [x[node], y[node]]))
     }
 
     fn stress(&self) -> Cow<'_, [[f64; 3]]> {
-        let Moment { mesh, measure, .. } = self.moment;
-        let stress = mesh.elements.iter().enumerate().map(|(number, element)| {
-            let volume = element.site_count() as f64 * self.site_volume;
+        let Moment {
+            mesh, measure, domain, ..
+        } = self.moment;
+        let of_element = |number: usize| {
+            let volume = mesh.elements[number].site_count() as f64 * self.site_volume;
             measure.virial(number).map(|component| component / volume)
-        });
-        Cow::Owned(stress.collect())
+        };
+        Cow::Owned(domain.gather(Of::Elements, of_element))
     }
 
     fn damage(&self) -> Cow<'_, [f64]> {
@@ -96,17 +107,21 @@ impl Picture for Snapshot<'_> {
 /// Cells and reference positions, x from the left edge and y from the crack plane.
 fn field_mesh(mesh: &Mesh) -> FieldMesh {
     let [left, middle] = [mesh.sites.left() * mesh.spacing, mesh.middle_height()];
-    let [x, y] = mesh.node_positions();
-    let mut offsets = vec![0];
-    for element in &mesh.elements {
-        offsets.push(offsets[offsets.len() - 1] + element.node_count() as u32);
+    let mut points = vec![[0.0; 2]; mesh.node_count()];
+    let mut connectivity = Vec::with_capacity(points.len());
+    let mut offsets = Vec::with_capacity(mesh.elements.len() + 1);
+    offsets.push(0);
+    for (number, element) in mesh.elements.iter().enumerate() {
+        for (node, corner) in mesh.nodes_of(number).zip(element.corners()) {
+            let [x, y] = mesh.reference(corner);
+            points[node] = [x - left, y - middle];
+            connectivity.push(node as u32);
+        }
+        offsets.push(connectivity.len() as u32);
     }
     FieldMesh {
-        points: x.iter().zip(&y).map(|(x, y)| [x - left, y - middle]).collect(),
-        connectivity: (0..mesh.elements.len())
-            .flat_map(|element| mesh.nodes_of(element))
-            .map(|node| node as u32)
-            .collect(),
+        points,
+        connectivity,
         offsets,
         element_size: mesh.elements.iter().map(|element| element.size as u32).collect(),
     }

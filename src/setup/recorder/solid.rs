@@ -3,14 +3,15 @@
 use std::borrow::Cow;
 use std::path::Path;
 
-use super::{Recorded, collected};
+use super::Recorded;
 use crate::analysis::columns::{Columns, SolidSetting};
+use crate::domain::Of;
 use crate::mesh::solid::Solid as Mesh;
 use crate::mesh::solid::element::Shape;
 use crate::record::frames::FieldMesh;
 use crate::record::{self, Picture, RecordError};
 use crate::solver::solid::Row;
-use crate::solver::{Instruments, Moment, Solid};
+use crate::solver::{Moment, Solid};
 
 impl Recorded<3> for Solid {
     type Setting = SolidSetting;
@@ -28,12 +29,19 @@ impl Recorded<3> for Solid {
         rows.push(reading.step, &reading.numbers);
     }
 
-    fn field_mesh(&self) -> FieldMesh<[f64; 3]> {
-        field_mesh(self.mesh())
+    fn field_mesh(mesh: &Mesh) -> FieldMesh<[f64; 3]> {
+        field_mesh(mesh)
     }
 
     fn write_frame(folder: &Path, moment: &Moment<Self, 3>, site_volume: f64) -> Result<(), RecordError> {
-        record::write_frame(folder, &Snapshot { moment, site_volume })
+        let picture = Snapshot { moment, site_volume };
+        match moment.domain.ranks().is_first() {
+            true => record::write_frame(folder, &picture),
+            false => {
+                record::give_frame(&picture);
+                Ok(())
+            }
+        }
     }
 
     fn site_volume(&self) -> f64 {
@@ -61,25 +69,33 @@ impl Picture<[f64; 3]> for Snapshot<'_> {
     }
 
     fn displacement(&self) -> Cow<'_, [[f64; 3]]> {
-        let Moment { mesh, state, .. } = self.moment;
-        let [now, then] = [&state.position, &mesh.node_positions()];
+        let Moment {
+            mesh, state, domain, ..
+        } = self.moment;
+        let [now, then] = [&state.position, &mesh.node_positions_of(&domain.elements())];
         let of_node = |node: usize| [0, 1, 2].map(|axis| now[axis][node] - then[axis][node]);
-        Cow::Owned((0..state.nodes()).map(of_node).collect())
+        Cow::Owned(domain.gather(Of::Nodes, of_node))
     }
 
     fn velocity(&self) -> Cow<'_, [[f64; 3]]> {
         let state = self.moment.state;
         let of_node = |node: usize| state.velocity.each_ref().map(|plane| plane[node]);
-        Cow::Owned((0..state.nodes()).map(of_node).collect())
+        Cow::Owned(self.moment.domain.gather(Of::Nodes, of_node))
     }
 
     fn stress(&self) -> Cow<'_, [[f64; 6]]> {
-        let Moment { mesh, measure, .. } = self.moment;
-        let stress = self.elements().map(|number| {
+        let Moment {
+            mesh, measure, domain, ..
+        } = self.moment;
+        let of_element = |number: usize| {
             let volume = mesh.elements[number].site_count() as f64 * self.site_volume;
             measure.virial(number).map(|component| component / volume)
-        });
-        Cow::Owned(stress.collect())
+        };
+        let of_elements = domain.gather(Of::Elements, of_element);
+        if of_elements.is_empty() {
+            return Cow::Owned(of_elements);
+        }
+        Cow::Owned(self.elements().map(|number| of_elements[number]).collect())
     }
 
     fn damage(&self) -> Cow<'_, [f64]> {
@@ -104,9 +120,14 @@ fn cells(shape: Shape) -> &'static [&'static [usize]] {
 
 /// Cells and reference positions.
 fn field_mesh(mesh: &Mesh) -> FieldMesh<[f64; 3]> {
-    let [x, y, z] = mesh.node_positions();
+    let mut points = vec![[0.0; 3]; mesh.node_count()];
+    for (number, element) in mesh.elements.iter().enumerate() {
+        for (node, corner) in mesh.nodes_of(number).zip(element.corners()) {
+            points[node] = mesh.sites.frame.place(element.site(corner));
+        }
+    }
     let mut fields = FieldMesh {
-        points: collected(x.len(), (0..x.len()).map(|node| [x[node], y[node], z[node]])),
+        points,
         offsets: vec![0],
         ..FieldMesh::default()
     };

@@ -28,6 +28,11 @@ const BYTES_A_PROCESS: u64 = 20_000_000;
 const BYTES_AN_ATOM: f64 = 200.0;
 const BYTES_A_TRIANGLE: f64 = 1250.0;
 
+/// What of it every rank holds: of all triangles where they lie, of all atoms also who their partners are and where they were
+/// last searched.
+const BYTES_A_TRIANGLE_EVERYWHERE: f64 = 40.0;
+const BYTES_AN_ATOM_EVERYWHERE: f64 = 80.0;
+
 impl Census {
     /// The first of the sizes asked for that no element has.
     pub fn absent(&self, plan: &Plan) -> Option<i32> {
@@ -109,9 +114,22 @@ impl Census {
         self.sum(|size| if size == 1 { 1.0 } else { 3.0 })
     }
 
-    /// Bytes that a solver takes at most, while a crack runs and a picture is written.
-    pub fn memory(&self) -> u64 {
-        BYTES_A_PROCESS + self.sum(|size| if size == 1 { BYTES_AN_ATOM } else { BYTES_A_TRIANGLE })
+    /// Bytes that so many ranks of a solver take together at most, while a crack runs and a picture is written.
+    pub fn memory(&self, ranks: u32) -> u64 {
+        let kept = self.sum(|size| if size == 1 { BYTES_AN_ATOM } else { BYTES_A_TRIANGLE });
+        let by_each = self.sum(|size| {
+            if size == 1 {
+                BYTES_AN_ATOM_EVERYWHERE
+            } else {
+                BYTES_A_TRIANGLE_EVERYWHERE
+            }
+        });
+        let ranks = u64::from(ranks);
+        let others = ranks.saturating_sub(1).saturating_mul(by_each);
+        ranks
+            .saturating_mul(BYTES_A_PROCESS)
+            .saturating_add(kept)
+            .saturating_add(others)
     }
 
     /// Sum over all elements of a number for each size.

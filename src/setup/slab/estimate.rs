@@ -227,7 +227,7 @@ fn estimate_with(
         time_step,
         stability_limit,
         steps,
-        memory_bytes: census.memory() * u64::from(ranks(case)),
+        memory_bytes: census.memory(ranks(case)),
         disk_bytes: disk(case, slab, census, material.spacing, [time, steps as f64]),
         seconds: SECONDS_A_RUN + seconds_of_probes + mean.weigh(of_element) * steps as f64,
     })
@@ -272,12 +272,12 @@ fn stability_limit_of(size: i32, material: &Material, settings: &Settings) -> Re
     Solver::new(patch, *material, loading, settings).map(|solver| solver.time_step()[1])
 }
 
-/// Refuses a mesh that so many ranks on this machine, each of which holds the whole, would not fit into what is free of its
-/// memory, before it is made.
+/// Refuses a mesh that so many ranks on this machine, each with its part and the lay-out of the whole, would not fit into what
+/// is free of its memory, before it is made.
 pub fn refuse_what_does_not_fit(plan: &Plan, ranks: u32) -> Result<(), SetupError> {
     let census = Census::by_area(plan);
     let sites = census.sites;
-    let needed = u64::from(ranks).saturating_mul(census.memory());
+    let needed = census.memory(ranks);
     match memory::free() {
         Some(present) if needed > present => Err(SetupError::TooLarge {
             sites,
@@ -294,7 +294,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_rank_counts_where_all_hold_the_whole_mesh() {
+    fn every_rank_counts_with_what_it_holds_beside_its_part() {
         let plan = Plan {
             layout: Layout {
                 block: 10,
@@ -310,9 +310,6 @@ mod tests {
         refuse_what_does_not_fit(&plan, 1).unwrap();
         let refused = refuse_what_does_not_fit(&plan, u32::MAX).unwrap_err();
         let told = refused.refusal().message;
-        assert!(
-            told.contains("for 4294967295 ranks, each of which holds it whole"),
-            "{told}"
-        );
+        assert!(told.contains("for 4294967295 ranks"), "{told}");
     }
 }

@@ -17,6 +17,11 @@ const BYTES_A_PROCESS: f64 = 36e6;
 const BYTES_AN_ATOM: f64 = 480.0;
 const BYTES_A_NODE: f64 = 340.0;
 
+/// What of it every rank holds: of all parts of blocks where they lie and which have a face in common, of all atoms also who
+/// may meet whom.
+const BYTES_AN_ATOM_EVERYWHERE: f64 = 200.0;
+const BYTES_A_NODE_EVERYWHERE: f64 = 50.0;
+
 /// Seconds on one core: to start and to publish a run, of a probe, and in a step of an atom, of an element, and of a site
 /// on its faces. Fitted to the film of `quickstart-3d.yaml` in atoms and to the bar of `wave-bar.yaml` in blocks of ten and of
 /// five cells, on a shared EPYC; what is torn takes longer.
@@ -60,7 +65,7 @@ impl Estimator {
         let [nodes, elements] = [specimen.nodes as f64, specimen.elements as f64];
         let series = (time / case.probes.every + 2.0) * 16.0 * 40.0;
         let disk = pictures * (nodes * (48.0 + 36.0) + elements * (64.0 + 40.0)) + 96.0 * nodes + series;
-        let bytes = BYTES_A_PROCESS + memory_of(&specimen.kinds);
+        let bytes = memory_of(&specimen.kinds, ranks(case));
         let seconds = SECONDS_A_RUN
             + SECONDS_A_PROBE * time / case.probes.every
             + seconds_of_a_step(&specimen.kinds) * steps as f64;
@@ -71,7 +76,7 @@ impl Estimator {
             time_step,
             stability_limit,
             steps,
-            memory_bytes: bytes as u64 * u64::from(ranks(case)),
+            memory_bytes: bytes as u64,
             disk_bytes: disk as u64,
             seconds,
             specimen,
@@ -104,12 +109,15 @@ impl Estimator {
     }
 }
 
-fn memory_of(kinds: &[Kind]) -> f64 {
+/// Of so many ranks together.
+fn memory_of(kinds: &[Kind], ranks: u32) -> f64 {
+    let others = f64::from(ranks) - 1.0;
     let each = |kind: &Kind| match kind.size {
-        1 => BYTES_AN_ATOM,
-        _ => BYTES_A_NODE * kind.nodes_each as f64,
+        1 => BYTES_AN_ATOM + others * BYTES_AN_ATOM_EVERYWHERE,
+        _ => (BYTES_A_NODE + others * BYTES_A_NODE_EVERYWHERE) * kind.nodes_each as f64,
     };
-    kinds.iter().map(|kind| kind.number as f64 * each(kind)).sum()
+    let kept: f64 = kinds.iter().map(|kind| kind.number as f64 * each(kind)).sum();
+    f64::from(ranks) * BYTES_A_PROCESS + kept
 }
 
 fn seconds_of_a_step(kinds: &[Kind]) -> f64 {
@@ -123,11 +131,12 @@ fn seconds_of_a_step(kinds: &[Kind]) -> f64 {
 /// Refuses a mesh that so many ranks on this machine would not fit into what is free of its memory, before it is made.
 pub fn refuse_what_does_not_fit(sites: u64, element: u32, ranks: u32) -> Result<(), SetupError> {
     let volume = u64::from(element).pow(3);
+    let others = f64::from(ranks) - 1.0;
     let a_site = match element {
-        1 => BYTES_AN_ATOM,
-        _ => BYTES_A_NODE * 14.0 / volume as f64,
+        1 => BYTES_AN_ATOM + others * BYTES_AN_ATOM_EVERYWHERE,
+        _ => (BYTES_A_NODE + others * BYTES_A_NODE_EVERYWHERE) * 14.0 / volume as f64,
     };
-    let needed = u64::from(ranks).saturating_mul((BYTES_A_PROCESS + a_site * sites as f64) as u64);
+    let needed = (f64::from(ranks) * BYTES_A_PROCESS + a_site * sites as f64) as u64;
     match memory::free() {
         Some(present) if needed > present => Err(SetupError::TooLarge {
             sites,

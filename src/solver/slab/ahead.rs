@@ -15,6 +15,11 @@ pub struct Next {
 }
 
 impl Next {
+    /// Takes nodes of other ranks into account that have come to be this one's.
+    pub fn forget_inertias(&mut self) {
+        self.inertias.clear();
+    }
+
     /// Forces at the present positions and the motion of the next step, which passes through the memory with them.
     pub fn compute_and_move(
         &mut self,
@@ -23,22 +28,24 @@ impl Next {
         time_step: f64,
     ) -> Result<(), ForceError> {
         if self.position[0].is_empty() {
+            // Untouched zeros, of which a rank fills in its own.
+            let zeros = || [0, 1].map(|_| vec![0.0; state.nodes()]);
+            (self.position, self.velocity) = (zeros(), zeros());
+        }
+        if self.inertias.is_empty() {
             self.inertias = state.inertias(forces.mesh());
-            self.position = state.position.clone();
-            self.velocity = state.velocity.clone();
         }
         let State {
             position,
             velocity,
             force,
             mobility,
-            mass,
             ..
         } = state;
         let leap = integrator::leap(2, time_step);
         let atoms = AtomMotion {
             leap,
-            mobility: mass.last().map_or(0.0, |mass| 1.0 / mass),
+            mobility: 1.0 / forces.material().site_mass,
         };
         let inertias = &self.inertias;
         let ahead = integrator::Ahead {

@@ -35,23 +35,23 @@ pub struct JIntegral {
     tables: Vec<BondTable>,
     /// The last rings, kept because a tip at rest keeps them.
     rings: Option<Rings>,
-    /// Elements that the rings touch, and for every element of the mesh its place among them or `FAR`.
+    /// Elements that the rings touch, and for every element of the mesh its place among them plus one, zero for the others.
     touched: Vec<u32>,
     place: Vec<u32>,
 }
 
-const FAR: u32 = u32::MAX;
-
 impl JIntegral {
     pub fn new(mesh: &Mesh, material: Material) -> Self {
-        let mut sizes: Vec<i32> = mesh.elements.iter().map(|element| element.size).collect();
+        let groups = mesh.groups.all().iter().map(|group| group.size);
+        let atoms = (mesh.elements.len() > mesh.triangles).then_some(1);
+        let mut sizes: Vec<i32> = groups.chain(atoms).collect();
         sizes.dedup();
         Self {
             tables: sizes.iter().map(|&size| BondTable::new(size, &material)).collect(),
             material,
             rings: None,
             touched: Vec::new(),
-            place: vec![FAR; mesh.elements.len()],
+            place: vec![0; mesh.elements.len()],
         }
     }
 
@@ -96,9 +96,9 @@ impl JIntegral {
         }
         self.touched
             .iter()
-            .for_each(|&element| self.place[element as usize] = FAR);
+            .for_each(|&element| self.place[element as usize] = 0);
         self.touched = elements_near(mesh, &rings, f64::from(largest_size(mesh)));
-        for (place, &element) in (0..).zip(&self.touched) {
+        for (place, &element) in (1..).zip(&self.touched) {
             self.place[element as usize] = place;
         }
         self.rings = Some(rings);

@@ -38,6 +38,10 @@ impl Instruments<2> for Slab {
         self.forces.mesh()
     }
 
+    fn into_mesh(self) -> Mesh {
+        self.forces.into_mesh()
+    }
+
     fn measure(&self) -> &Measure {
         &self.measure
     }
@@ -76,9 +80,7 @@ impl Instruments<2> for Slab {
     }
 
     fn picture(&mut self, state: &mut State) -> Vec<[i32; 3]> {
-        let broken = self.forces.broken_bonds(&state.position);
-        self.measure.gather(self.forces.domain());
-        broken
+        self.forces.broken_bonds(&state.position)
     }
 
     fn open_interfaces(&self) -> Vec<u32> {

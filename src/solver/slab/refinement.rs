@@ -27,16 +27,17 @@ pub struct Refinement {
 }
 
 impl Refinement {
-    /// Of forces on the mesh of the start.
+    /// Of forces on the mesh of the start. All ranks must make it together.
     pub fn new(refine: Refine, forces: &Forces, element: u32, settings: &Settings) -> Self {
-        let severed = forces.neighbours().filter(|(_, is_severed)| *is_severed);
+        let neighbours = forces.neighbours();
+        let severed = neighbours.iter().filter(|(_, is_severed)| *is_severed);
         Self {
             refine,
             settings: settings.clone(),
             start: forces.mesh().clone(),
             element,
-            at_cut: severed.flat_map(|(both, _)| both).collect(),
-            neighbours: forces.neighbours().map(|(both, _)| both).collect(),
+            at_cut: severed.flat_map(|(both, _)| *both).collect(),
+            neighbours: neighbours.into_iter().map(|(both, _)| both).collect(),
             refined: Vec::new(),
             next: Vec::new(),
             outruns: 0,
@@ -136,12 +137,10 @@ impl Slab {
     }
 
     /// Whether triangles between the grips carry too large an error, and what is to become atoms with them.
-    pub(super) fn find_too_coarse(&mut self, state: &mut State) -> bool {
+    pub(super) fn find_too_coarse(&mut self, state: &State) -> bool {
         let Some(refinement) = &mut self.refinement else {
             return false;
         };
-        let domain = self.forces.domain();
-        state.position.iter_mut().for_each(|plane| domain.share_nodes(plane));
         let errors = self.forces.strain_errors(&state.position);
         let Some(wanted) = refinement.wanted(&errors) else {
             return false;

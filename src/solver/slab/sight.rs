@@ -48,11 +48,13 @@ impl Slab {
             position,
             velocity,
             force,
+            mass,
             ..
         } = &mut *state;
         let [[x, y], [velocity_x, velocity_y], [force_x, force_y]] =
             [position, velocity, force].map(|planes| planes.each_mut().map(Vec::as_mut_slice));
-        parcels.bring(domain, Of::Nodes, [x, y, velocity_x, velocity_y, force_x, force_y]);
+        let planes = [x, y, velocity_x, velocity_y, force_x, force_y, mass];
+        parcels.bring(domain, Of::Nodes, planes);
         self.measure.bring(&mut parcels, domain);
         // The thermometer reads all atoms.
         let velocities = state.velocity.iter_mut();

@@ -10,21 +10,17 @@ use rayon::prelude::*;
 use crate::domain::Domain;
 use crate::forces::solid::Forces;
 use crate::lattice::fcc::NEAREST;
+use crate::mesh::solid::Solid;
 use crate::mesh::solid::bonds::{self, End, place_of, plus};
 use crate::mesh::solid::element::{Element, Shape};
-
-/// How a bond was lost.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Lost {
-    Broken,
-    Severed,
-}
 
 /// The bonds between elements.
 #[derive(Clone, Debug)]
 pub struct Bonds {
     /// Those of atoms, of parts with them and with parts of other sizes, and those across interfaces that have opened.
     single: bonds::Bonds,
+    /// Whether there are parts beside those of other sizes.
+    has_unlike_parts: bool,
     /// The interfaces whose bonds are among them, ascending.
     opened: Vec<u32>,
     /// Bonds that touch an element of each shape and size.
@@ -39,19 +35,25 @@ impl Bonds {
             let kind = (element.shape, element.size);
             touching.entry(kind).or_insert_with(|| touching_bonds(*element));
         }
+        let single = bonds::Bonds::new(mesh, &forces.beside_others());
         Self {
-            single: bonds::Bonds::new(mesh, &forces.beside_others()),
+            has_unlike_parts: !single.of_parts.is_empty(),
+            single,
             opened: Vec::new(),
             touching,
         }
     }
 
-    /// How many bonds are broken, and of each element the share of the bonds of its sites that are broken or severed. All ranks
-    /// must ask for it together.
-    pub fn broken(&mut self, forces: &Forces, position: &mut [Vec<f64>; 3]) -> (u64, Vec<f64>) {
+    /// The elements at both ends of every bond that has broken, in any order. All ranks must ask for it together, and get those of
+    /// all.
+    pub fn broken(&mut self, forces: &Forces, position: &mut [Vec<f64>; 3]) -> Vec<[u32; 2]> {
         self.follow(forces);
         let mesh = forces.mesh();
-        share(forces.domain(), position);
+        let domain = forces.domain();
+        if mesh.atom_count() > 0 || self.has_unlike_parts {
+            share(domain, position);
+        }
+        let is_mine = |element: usize| domain.is_mine(element);
         let longest = forces.material().breaking_length();
         let is_broken = |a: [f64; 3], b: [f64; 3]| {
             let squared: f64 = (0..3).map(|axis| (a[axis] - b[axis]) * (a[axis] - b[axis])).sum();
@@ -59,38 +61,52 @@ impl Bonds {
         };
         let at_node = |node: usize| position.each_ref().map(|plane| plane[node]);
         let first = mesh.part_nodes();
-        let of_atom = |atom: usize| -> Vec<([u32; 2], Lost)> {
+        let of_atom = |atom: usize| -> Vec<[u32; 2]> {
             let here = at_node(first + atom);
-            let others = self.single.of_atom(atom).map(|(_, other)| other);
             let number = |atom: usize| (mesh.parts + atom) as u32;
-            let ends = |other: u32| [number(atom), number(other as usize)];
-            let is_severed = |ends: [u32; 2]| {
-                let [a, b] = ends.map(|end| mesh.elements[end as usize].anchor);
-                mesh.sites.severs(a, b)
-            };
-            let lost = others.filter_map(|other| match is_severed(ends(other)) {
-                true => Some((ends(other), Lost::Severed)),
-                false => is_broken(here, at_node(first + other as usize)).then_some((ends(other), Lost::Broken)),
-            });
-            lost.collect()
+            let others = self.single.of_atom(atom).map(|(_, other)| other as usize);
+            let broken = others.filter(|&other| is_broken(here, at_node(first + other)));
+            let broken = broken.map(|other| [atom, other].map(number));
+            let broken = broken.filter(|ends| !is_severed(mesh, ends.map(|end| (end, [0; 3]))));
+            broken.collect()
         };
         let at = |end: End| place_of(mesh, end, position);
-        let between_atoms = (0..self.single.atom_count()).into_par_iter().flat_map_iter(of_atom);
+        let between_atoms = domain.atoms().into_par_iter().flat_map_iter(of_atom);
         let of_parts = self.single.of_parts.par_iter();
-        let site = |end: End| mesh.elements[end.0 as usize].site(end.1);
-        let of_parts = of_parts.filter_map(|&[a, b]| match mesh.sites.severs(site(a), site(b)) {
-            true => Some(([a.0, b.0], Lost::Severed)),
-            false => is_broken(at(a), at(b)).then_some(([a.0, b.0], Lost::Broken)),
-        });
-        let lost: Vec<([u32; 2], Lost)> = between_atoms.chain(of_parts).collect();
+        let of_parts = of_parts.filter(|[a, _]| is_mine(a.0 as usize));
+        let of_parts = of_parts.filter(|[a, b]| !is_severed(mesh, [*a, *b]) && is_broken(at(*a), at(*b)));
+        let of_parts = of_parts.map(|[a, b]| [a.0, b.0]);
+        let mine: Vec<[u32; 2]> = between_atoms.chain(of_parts).collect();
+        domain.ranks().join(mine.into_flattened()).as_chunks().0.to_vec()
+    }
+
+    /// Of each element the share of the bonds of its sites that are broken or severed.
+    pub fn damage(&self, mesh: &Solid, broken: &[[u32; 2]]) -> Vec<f64> {
         let mut damage = vec![0.0; mesh.elements.len()];
-        let elements = lost.iter().flat_map(|(elements, _)| elements);
-        elements.for_each(|&element| damage[element as usize] += 1.0);
-        let broken = lost.iter().filter(|(_, how)| *how == Lost::Broken);
-        for (damage, element) in damage.iter_mut().zip(&mesh.elements) {
+        for element in broken.iter().copied().chain(self.severed(mesh)).flatten() {
+            damage[element as usize] += 1.0;
+        }
+        for (damage, element) in damage
+            .iter_mut()
+            .zip(&mesh.elements)
+            .filter(|(damage, _)| **damage > 0.0)
+        {
             *damage /= self.touching[&(element.shape, element.size)];
         }
-        (broken.count() as u64, damage)
+        damage
+    }
+
+    /// The elements at both ends of every bond that a cut severs.
+    fn severed(&self, mesh: &Solid) -> Vec<[u32; 2]> {
+        if mesh.sites.cut.is_none() {
+            return Vec::new();
+        }
+        let number = |atom: usize| (mesh.parts + atom) as u32;
+        let of_atom = |atom: usize| self.single.of_atom(atom).map(move |(_, other)| [atom, other as usize].map(number));
+        let between_atoms = (0..self.single.atom_count()).flat_map(of_atom);
+        let between_atoms = between_atoms.filter(|ends| is_severed(mesh, ends.map(|end| (end, [0; 3]))));
+        let of_parts = self.single.of_parts.iter().filter(|ends| is_severed(mesh, **ends));
+        between_atoms.chain(of_parts.map(|[a, b]| [a.0, b.0])).collect()
     }
 
     /// Takes in the bonds across interfaces that have opened since.
@@ -103,6 +119,12 @@ impl Bonds {
         }
         self.opened = open;
     }
+}
+
+/// Whether a cut severs the bond between two sites.
+fn is_severed(mesh: &Solid, ends: [End; 2]) -> bool {
+    let [a, b] = ends.map(|(element, local)| mesh.elements[element as usize].site(local));
+    mesh.sites.severs(a, b)
 }
 
 /// Every rank learns where all nodes are: what is broken may lie far apart.
@@ -176,7 +198,11 @@ mod tests {
             let mut force = position.clone();
             let mut bonds = Bonds::new(&forces);
             forces.compute(&mut position, &mut force).unwrap();
-            assert_eq!(bonds.broken(&forces, &mut position).0, 0, "{element}, {atoms_from:?}");
+            assert_eq!(
+                bonds.broken(&forces, &mut position).len(),
+                0,
+                "{element}, {atoms_from:?}"
+            );
             for number in 0..forces.mesh().elements.len() {
                 if forces.mesh().elements[number].anchor[2] >= 6 {
                     let nodes: Vec<usize> = forces.mesh().nodes_of(number).collect();
@@ -184,8 +210,9 @@ mod tests {
                 }
             }
             forces.compute(&mut position, &mut force).unwrap();
-            let (broken, damage) = bonds.broken(&forces, &mut position);
-            assert_eq!(broken as usize, expected, "{element}, {atoms_from:?}");
+            let broken = bonds.broken(&forces, &mut position);
+            let damage = bonds.damage(forces.mesh(), &broken);
+            assert_eq!(broken.len(), expected, "{element}, {atoms_from:?}");
             let elements = forces.mesh().elements.iter().zip(damage);
             let ends: f64 = elements
                 .map(|(&element, damage)| damage * touching_bonds(element))
@@ -216,8 +243,10 @@ mod tests {
             mesh.sites.cut = Some(cut);
             let forces = Forces::new(mesh, *whole.material());
             let mut position = forces.mesh().node_positions();
-            let (broken, damage) = Bonds::new(&forces).broken(&forces, &mut position);
-            assert_eq!(broken, 0);
+            let mut bonds = Bonds::new(&forces);
+            let broken = bonds.broken(&forces, &mut position);
+            assert_eq!(broken.len(), 0);
+            let damage = bonds.damage(forces.mesh(), &broken);
             let elements = forces.mesh().elements.iter().zip(damage);
             let ends: f64 = elements
                 .map(|(&element, damage)| damage * touching_bonds(element))

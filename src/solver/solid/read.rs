@@ -24,13 +24,17 @@ const COMPONENTS: [&str; 6] = ["xx", "yy", "zz", "yz", "xz", "xy"];
 impl Instruments<3> for Solid {
     type Mesh = Mesh;
     type Measure = Measure;
-    /// Of each element the share of the nearest-neighbour bonds of its sites that are broken.
+    /// Of each element the share of the nearest-neighbour bonds of its sites that are broken; empty but on the first rank.
     type Broken = Vec<f64>;
     type Reading = Row;
     type Kept = Kept;
 
     fn mesh(&self) -> &Mesh {
         self.forces.mesh()
+    }
+
+    fn into_mesh(self) -> Mesh {
+        self.forces.into_mesh()
     }
 
     fn measure(&self) -> &Measure {
@@ -58,7 +62,7 @@ impl Instruments<3> for Solid {
         velocities.for_each(|plane| domain.gather_atoms(plane));
         numbers.push(self.thermometer.read(state));
         numbers.push((self.forces.open_interfaces().len() - self.open_at_start) as f64);
-        numbers.push(self.bonds.broken(&self.forces, &mut state.position).0 as f64);
+        numbers.push(self.bonds.broken(&self.forces, &mut state.position).len() as f64);
         numbers.extend(self.loading.pulls(state, domain.ranks()).into_flattened());
         let volume = site_volume(self.forces.mesh());
         let gauges = self.gauges.iter();
@@ -68,10 +72,11 @@ impl Instruments<3> for Solid {
     }
 
     fn picture(&mut self, state: &mut State<3>) -> Vec<f64> {
-        let domain = self.forces.domain();
-        let planes = self.measure.planes_mut().into_iter();
-        planes.for_each(|plane| domain.gather_elements(plane));
-        self.bonds.broken(&self.forces, &mut state.position).1
+        let broken = self.bonds.broken(&self.forces, &mut state.position);
+        match self.forces.domain().ranks().is_first() {
+            true => self.bonds.damage(self.forces.mesh(), &broken),
+            false => Vec::new(),
+        }
     }
 
     fn open_interfaces(&self) -> Vec<u32> {

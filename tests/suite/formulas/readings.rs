@@ -14,7 +14,7 @@ use cgaft::mesh::sites::Layout;
 use cgaft::mesh::{Mesh, Plan};
 use cgaft::potential::AtCutoff;
 use cgaft::solver::checkpoint::Checkpoint;
-use cgaft::solver::{Cost, Moment, Observer, Progress, Reading, Settings, Solver, TimeStep, Until};
+use cgaft::solver::{Cost, Moment, Motion, Observer, Progress, Reading, Settings, Solver, TimeStep, Until};
 use cgaft::units::BOLTZMANN_EV_PER_K;
 
 use crate::suite::specimens::{Noise, lennard_jones};
@@ -52,7 +52,7 @@ impl Observer for First {
     fn snapshot(&mut self, _: &Moment) -> Result<(), Infallible> {
         Ok(())
     }
-    fn checkpoint(&mut self, _: &Checkpoint, _: &Cost) -> Result<(), Infallible> {
+    fn checkpoint(&mut self, _: &Checkpoint, _: &Motion<2>, _: &Cost) -> Result<(), Infallible> {
         Ok(())
     }
     fn progress(&mut self, _: &Progress) {}

@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use cgaft::mesh::solid::Solid as Mesh;
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::solid::{Experiment, Kept, Row};
-use cgaft::solver::{Cost, Ending, Moment, Observer, Progress, Solid, SolverError};
+use cgaft::solver::{Cost, Ending, Moment, Motion, Observer, Progress, Solid, SolverError};
 
 use super::{Keeper, hit, meshes, opposed, pulled, run, settings, solver};
 
@@ -30,8 +30,13 @@ fn a_run_from_a_checkpoint_ends_with_the_same_bits() {
                 fn snapshot(&mut self, moment: &Moment<Solid, 3>) -> Result<(), Infallible> {
                     self.0.snapshot(moment)
                 }
-                fn checkpoint(&mut self, checkpoint: &Checkpoint<Kept, 3>, cost: &Cost) -> Result<(), Infallible> {
-                    self.0.checkpoint(checkpoint, cost)
+                fn checkpoint(
+                    &mut self,
+                    checkpoint: &Checkpoint<Kept, 3>,
+                    motion: &Motion<3>,
+                    cost: &Cost,
+                ) -> Result<(), Infallible> {
+                    self.0.checkpoint(checkpoint, motion, cost)
                 }
                 fn progress(&mut self, _: &Progress) {}
             }

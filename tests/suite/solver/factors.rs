@@ -9,7 +9,7 @@ use cgaft::lattice::triangular;
 use cgaft::loading::{Grip, Stretching};
 use cgaft::mesh::Mesh;
 use cgaft::solver::checkpoint::Checkpoint;
-use cgaft::solver::{Cost, Moment, Observer, Progress, Reading, Settings, Solver};
+use cgaft::solver::{Cost, Moment, Motion, Observer, Progress, Reading, Settings, Solver};
 use cgaft::state::State;
 
 use super::super::specimens::{Noise, nearest_neighbours, slab};
@@ -53,7 +53,7 @@ impl Observer for Counter {
         self.pairs.push(self.count(moment.mesh, moment.state));
         Ok(())
     }
-    fn checkpoint(&mut self, _: &Checkpoint, _: &Cost) -> Result<(), Infallible> {
+    fn checkpoint(&mut self, _: &Checkpoint, _: &Motion<2>, _: &Cost) -> Result<(), Infallible> {
         Ok(())
     }
     fn progress(&mut self, _: &Progress) {}

@@ -11,7 +11,7 @@ use cgaft::mesh::cut::Crack;
 use cgaft::mesh::sites::Layout;
 use cgaft::potential::AtCutoff;
 use cgaft::solver::checkpoint::Checkpoint;
-use cgaft::solver::{Cost, Moment, Observer, Progress, Reading, Refine, Settings, Solver, SolverError, Until};
+use cgaft::solver::{Cost, Moment, Motion, Observer, Progress, Reading, Refine, Settings, Solver, SolverError, Until};
 use cgaft::state::State;
 
 use super::super::specimens::slab;
@@ -191,8 +191,8 @@ impl Observer for StopFrom<'_> {
     fn snapshot(&mut self, _: &Moment) -> Result<(), Infallible> {
         Ok(())
     }
-    fn checkpoint(&mut self, checkpoint: &Checkpoint, _: &Cost) -> Result<(), Infallible> {
-        self.2 = Some(checkpoint.clone());
+    fn checkpoint(&mut self, checkpoint: &Checkpoint, motion: &Motion<2>, _: &Cost) -> Result<(), Infallible> {
+        self.2 = Some(motion.complete(checkpoint));
         Ok(())
     }
     fn progress(&mut self, _: &Progress) {}

@@ -9,7 +9,7 @@ use cgaft::forces::Summation;
 use cgaft::loading::{Grip, Stretching};
 use cgaft::mesh::Mesh;
 use cgaft::solver::checkpoint::Checkpoint;
-use cgaft::solver::{Cost, Moment, Observer, Progress, Reading, Settings, Solver, TimeStep, Until};
+use cgaft::solver::{Cost, Moment, Motion, Observer, Progress, Reading, Settings, Solver, TimeStep, Until};
 
 use super::{SMOOTH, block_mesh, smooth};
 use crate::verify::specimens::slab;
@@ -39,7 +39,7 @@ impl Observer for Keeper {
     fn snapshot(&mut self, _: &Moment) -> Result<(), Infallible> {
         Ok(())
     }
-    fn checkpoint(&mut self, _: &Checkpoint, _: &Cost) -> Result<(), Infallible> {
+    fn checkpoint(&mut self, _: &Checkpoint, _: &Motion<2>, _: &Cost) -> Result<(), Infallible> {
         Ok(())
     }
     fn progress(&mut self, _: &Progress) {}

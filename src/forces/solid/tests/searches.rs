@@ -1,6 +1,7 @@
 //! Neighbours are searched where something may meet, and only when it may.
 
 use super::*;
+use crate::domain::{Domain, Ranks};
 
 /// Everything beyond a plane is lifted, the more the farther it is behind a front that moves along a1.
 fn torn(mesh: &Solid, front: f64, beyond: i32) -> Planes {
@@ -85,13 +86,17 @@ fn a_notched_film_that_is_whole_exposes_no_sites() {
     for gradient in [NONE, stretched] {
         let position = displaced(&mesh, gradient, 0.0);
         let interfaces = Interfaces::new(&mesh, 1.4);
-        let exposed = exposed::Exposed::new(&exposed::Scene {
+        let domain = Domain::new(Ranks::alone(), &mesh, |_| 1.0);
+        let scene = exposed::Scene {
             mesh: &mesh,
             interfaces: &interfaces,
+            domain: &domain,
             position: &position,
-            is_firm: &vec![true; interfaces.pairs.len()],
+            not_firm: &[],
             radius: drift::Lengths::new(material.interaction.cutoff(), material.spacing).radius,
-        });
+        };
+        let sides = exposed::Sides::new(&interfaces, &[]);
+        let exposed = exposed::Exposed::new(&scene, sides);
         assert!(exposed.sites.is_empty() && exposed.parts.len() == mesh.parts);
     }
 }

@@ -96,7 +96,7 @@ pub(super) struct Field<'a> {
     pub tables: &'a [BondTable],
     pub state: &'a State,
     pub rings: &'a Rings,
-    /// Where an element's nodes are among those gathered.
+    /// Where an element's nodes are among those gathered, plus one; zero where they are not.
     pub place: &'a [u32],
     pub nodes: &'a [Nodes],
 }
@@ -130,7 +130,7 @@ pub(super) fn nodes_of(mesh: &Mesh, state: &State, rings: &Rings, number: usize)
 impl Field<'_> {
     pub(super) fn contribution(&self, number: usize) -> [f64; RINGS] {
         let element = &self.mesh.elements[number];
-        let nodes = &self.nodes[self.place[number] as usize];
+        let nodes = &self.nodes[self.place[number] as usize - 1];
         let cell = self.cell(element, nodes);
         let Some(gradient) = cell.gradient() else {
             return [0.0; RINGS];
@@ -178,7 +178,8 @@ impl Field<'_> {
                 continue;
             }
             let far = &self.mesh.elements[other];
-            let gathered = self.nodes.get(self.place[other] as usize);
+            let place = (self.place[other] as usize).checked_sub(1);
+            let gathered = place.map(|place| &self.nodes[place]);
             let far_end = match gathered {
                 Some(nodes) => interpolate(nodes, far.size, far.local(other_site)),
                 None => {
