@@ -2,10 +2,10 @@
 
 use std::time::Instant;
 
-use super::Solver;
 use super::body::Instruments;
 use super::cost::Phase;
 use super::error::SolverError;
+use super::{Solver, time_step};
 use crate::loading::Load;
 
 impl<B: Instruments<D>, const D: usize> Solver<B, D> {
@@ -26,21 +26,27 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
             self.compute(true).map_err(|source| self.blow_up(source))?;
             let after = self.energies();
             self.ledger.refine(before, after);
-            // What has stayed an element was looked at before.
-            let of_atoms = self.body.stability_limit_of_atoms(&self.state);
-            self.stability_limit = self.stability_limit.min(of_atoms);
-            let longest = self.body.load().longest_step(self.body.spacing());
-            let chosen = self.settings.time_step.choose(self.stability_limit, longest);
-            let chosen = chosen.map_err(|_| self.step_unstable())?;
-            for step in [
-                &mut self.longest_step,
-                &mut self.clock.time_step,
-                &mut self.step_after_next,
-            ] {
-                *step = step.min(chosen);
-            }
+            self.follow_finer_mesh()?;
         }
         self.cost.book(Phase::Refinement, &mut clock);
+        Ok(())
+    }
+
+    /// What has become atoms may be stiffer; what has stayed an element was looked at before.
+    fn follow_finer_mesh(&mut self) -> Result<(), SolverError> {
+        let added = self.body.stiffened(&self.state);
+        let of_atoms = self.body.stability_limit_of_atoms(&self.state);
+        let of_atoms = time_step::without_close_bonds(of_atoms, added, self.stability_limit);
+        self.stability_limit = self.stability_limit.min(of_atoms);
+        let (time_step, limit) = (self.settings.time_step, self.stability_limit);
+        let longest = self.body.load().longest_step(self.body.spacing());
+        let calm = time_step.choose(limit, longest).map_err(|_| self.step_unstable())?;
+        self.longest_step = self.longest_step.min(calm);
+        let next = time_step.follow(self.clock.time_step, self.longest_step, [limit, added], None);
+        let next = next.ok_or_else(|| self.step_unstable())?;
+        for step in [&mut self.clock.time_step, &mut self.step_after_next] {
+            *step = step.min(next);
+        }
         Ok(())
     }
 
