@@ -19,6 +19,9 @@ pub struct AtomLattice {
     regular: Option<Regular>,
 }
 
+/// How many rings of partners go with an atom that is disturbed.
+const RINGS: u32 = 3;
+
 /// Atoms by what has to be searched.
 pub struct Surroundings {
     /// Whether each atom's partners are found by search; the others have those of the lattice.
@@ -80,13 +83,25 @@ impl AtomLattice {
         self.disturbed[atom]
     }
 
-    /// Takes an atom out of the lattice, and its partners with it: where one bond goes, the next are soon to follow.
+    /// Takes an atom out of the lattice, and those around it: where one bond goes, the next are soon to follow, and each that
+    /// is found later costs a search.
     pub fn disturb(&mut self, atom: usize) {
-        self.disturbed[atom] = true;
         let Self {
             partners, disturbed, ..
         } = self;
-        partners.for_each_of(atom, |partner| disturbed[partner.site()] = true);
+        disturbed[atom] = true;
+        let mut ring = vec![atom];
+        for _ in 0..RINGS {
+            let mut next = Vec::new();
+            for &atom in &ring {
+                partners.for_each_of(atom, |partner| {
+                    if !std::mem::replace(&mut disturbed[partner.site()], true) {
+                        next.push(partner.site());
+                    }
+                });
+            }
+            ring = next;
+        }
     }
 
     /// Forgets where it is disturbed.
