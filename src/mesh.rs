@@ -161,6 +161,14 @@ impl Mesh {
         [x, y]
     }
 
+    /// Reference position of a node, nm, in lattice coordinates.
+    pub fn node_position(&self, node: usize) -> [f64; 2] {
+        let element = self.element_of_node(node);
+        let mut corners = self.nodes_of(element).zip(self.elements[element].corners());
+        let corner = corners.find(|(other, _)| *other == node).map(|(_, corner)| corner);
+        corner.map_or([f64::NAN; 2], |corner| self.reference(corner))
+    }
+
     /// Largest coordinate of a node in its reference position, nm.
     pub fn farthest(&self) -> f64 {
         let corners = self.elements.iter().flat_map(Element::corners);

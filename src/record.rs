@@ -39,7 +39,7 @@ pub use publish::{publish_fields, publish_series};
 pub use read_fields::{FrameReader, read_fields};
 pub use segments::{read_segments, write_segment};
 pub use series::read_series;
-pub use snapshots::{Picture, give_frame, write_frame};
+pub use snapshots::{Give, Picture, give_frame, write_frame};
 
 /// Names of the files in a run's folder.
 pub const CHECKPOINT_FILE: &str = "checkpoint.h5";

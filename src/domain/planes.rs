@@ -1,33 +1,76 @@
 //! How numbers of nodes and elements get from the rank that computes them to others.
 
+use std::ops::Range;
+
 use super::{Domain, Halo, Of};
 use crate::mesh::grouped::Grouped;
+
+/// Rows that are on their way to the first rank at once.
+const BLOCK: usize = 1 << 18;
 
 impl Domain {
     /// Brings some numbers of each node or element to the first rank, from the rank that computes it; the others get none. All
     /// ranks must call this together.
     pub fn gather<const N: usize>(&self, of: Of, row: impl Fn(usize) -> [f64; N]) -> Vec<[f64; N]> {
-        let starts = match of {
+        self.gather_range(of, 0..self.count_of(of), &row)
+    }
+
+    /// The same in blocks, which the first rank is given one after the other, each with the number of its first row.
+    pub fn gather_in_blocks<const N: usize>(
+        &self,
+        of: Of,
+        row: impl Fn(usize) -> [f64; N],
+        mut give: impl FnMut(usize, &[[f64; N]]),
+    ) {
+        let count = self.count_of(of);
+        for from in (0..count).step_by(BLOCK) {
+            let rows = self.gather_range(of, from..count.min(from + BLOCK), &row);
+            if self.ranks.is_first() {
+                give(from, &rows);
+            }
+        }
+    }
+
+    /// How many nodes or elements there are.
+    fn count_of(&self, of: Of) -> usize {
+        self.starts_of(of)[self.count()] + self.atoms[self.count()]
+    }
+
+    /// Where the nodes or elements in groups of each rank start.
+    fn starts_of(&self, of: Of) -> &[usize] {
+        match of {
             Of::Nodes => &self.nodes,
             Of::Elements => &self.grouped,
-        };
-        let first_atom = starts[self.count()];
-        let count = first_atom + self.atoms[self.count()];
-        if self.ranks.count() == 1 {
-            let mut rows = Vec::with_capacity(count);
-            rows.extend((0..count).map(row));
-            return rows;
         }
+    }
+
+    fn gather_range<const N: usize>(
+        &self,
+        of: Of,
+        range: Range<usize>,
+        row: &impl Fn(usize) -> [f64; N],
+    ) -> Vec<[f64; N]> {
+        if self.ranks.count() == 1 {
+            return range.map(row).collect();
+        }
+        let starts = self.starts_of(of);
+        let first_atom = starts[self.count()];
         let mut all = match self.ranks.is_first() {
-            true => vec![[0.0; N]; count],
+            true => vec![[0.0; N]; range.len()],
             false => Vec::new(),
         };
-        let (of_groups, of_atoms) = all.split_at_mut(if self.ranks.is_first() { first_atom } else { 0 });
-        for (all, starts, first) in [(of_groups, starts, 0), (of_atoms, &self.atoms, first_atom)] {
-            let mine = first + starts[self.rank]..first + starts[self.rank + 1];
-            let mine: Vec<[f64; N]> = mine.map(&row).collect();
-            let starts: Vec<usize> = starts.iter().map(|start| N * start).collect();
-            self.ranks.gather(mine.as_flattened(), all.as_flattened_mut(), &starts);
+        for (starts, first) in [(starts, 0), (&self.atoms[..], first_atom)] {
+            let within = |start: &usize| (first + start).clamp(range.start, range.end) - range.start;
+            let starts: Vec<usize> = starts.iter().map(within).collect();
+            let [from, to] = [starts[0], starts[self.count()]];
+            if from == to {
+                continue;
+            }
+            let mine = range.start + starts[self.rank]..range.start + starts[self.rank + 1];
+            let mine: Vec<[f64; N]> = mine.map(row).collect();
+            let starts: Vec<usize> = starts.iter().map(|start| N * (start - from)).collect();
+            let part = all.get_mut(from..to).unwrap_or_default();
+            self.ranks.gather(mine.as_flattened(), part.as_flattened_mut(), &starts);
         }
         all
     }

@@ -126,6 +126,15 @@ impl Solid {
         self.elements.len() - self.parts
     }
 
+    /// Sites along an edge of the blocks of its elements, ascending.
+    pub fn sizes(&self) -> Vec<i32> {
+        let of_atoms = (self.atom_count() > 0).then_some(1);
+        let mut sizes: Vec<i32> = self.groups.iter().map(|group| group.size).chain(of_atoms).collect();
+        sizes.sort_unstable();
+        sizes.dedup();
+        sizes
+    }
+
     pub fn groups(&self) -> &[Group] {
         &self.groups
     }
@@ -190,6 +199,15 @@ impl Solid {
             }
         }
         planes
+    }
+
+    /// Reference position of a node, nm.
+    pub fn node_position(&self, node: usize) -> [f64; 3] {
+        let number = self.element_of_node(node);
+        let element = &self.elements[number];
+        let mut corners = self.nodes_of(number).zip(element.corners());
+        let corner = corners.find(|(other, _)| *other == node).map(|(_, corner)| corner);
+        corner.map_or([f64::NAN; 3], |corner| self.sites.frame.place(element.site(corner)))
     }
 
     /// Largest coordinate of a node in its reference position, nm.

@@ -2,60 +2,80 @@
 
 use hdf5::Group;
 
-use super::frames::{Frame, Row, Tensor, Vector};
+use super::frames::{Row, Tensor, Vector};
 use super::packed::Packed;
+use super::snapshots::{DAMAGE, DISPLACEMENT, STRESS, VELOCITY};
 use crate::units::{EV_PER_NM3_IN_GPA, NM_PER_PS_IN_M_PER_S};
 
 /// A field as ParaView shows it.
-pub(super) struct Field<V: Vector> {
+pub(super) struct Field {
     pub name: &'static str,
     pub unit: &'static str,
     /// Numbers a node or cell: 3 a vector, 6 a symmetric tensor xx, yy, zz, xy, yz, xz.
     pub width: usize,
-    pub of: fn(&Frame<V>) -> Vec<f32>,
+    /// Whether it has a row a node; otherwise it has one a cell.
+    pub on_points: bool,
+    /// Where a picture of the run has what it is made of, and how many numbers a node or cell these are.
+    pub source: (&'static str, usize),
+    /// Makes it of some of these.
+    pub of: fn(&[f64]) -> Vec<f32>,
 }
 
-pub(super) fn point_fields<V: Vector>() -> [Field<V>; 2] {
+pub(super) fn point_fields<V: Vector>() -> [Field; 2] {
     [
         Field {
             name: "displacement",
             unit: "nm",
             width: 3,
-            of: |frame| vectors(&frame.displacement, 1.0),
+            on_points: true,
+            source: (DISPLACEMENT, V::WIDTH),
+            of: |numbers| vectors::<V>(numbers, 1.0),
         },
         Field {
             name: "velocity",
             unit: "m/s",
             width: 3,
-            of: |frame| vectors(&frame.velocity, NM_PER_PS_IN_M_PER_S),
+            on_points: true,
+            source: (VELOCITY, V::WIDTH),
+            of: |numbers| vectors::<V>(numbers, NM_PER_PS_IN_M_PER_S),
         },
     ]
 }
 
-pub(super) fn cell_fields<V: Vector>() -> [Field<V>; 3] {
+pub(super) fn cell_fields<V: Vector>() -> [Field; 3] {
     [
         Field {
             name: "virial_stress",
             unit: "GPa",
             width: 6,
-            of: |frame| frame.stress.iter().flat_map(tensor).map(giga_pascal).collect(),
+            on_points: false,
+            source: (STRESS, V::Stress::WIDTH),
+            of: |numbers| tensors::<V::Stress>(numbers).flatten().map(giga_pascal).collect(),
         },
         Field {
             name: "sigma_yy",
             unit: "GPa",
             width: 1,
-            of: |frame| frame.stress.iter().map(|s| giga_pascal(tensor(s)[1])).collect(),
+            on_points: false,
+            source: (STRESS, V::Stress::WIDTH),
+            of: |numbers| {
+                tensors::<V::Stress>(numbers)
+                    .map(|stress| giga_pascal(stress[1]))
+                    .collect()
+            },
         },
         Field {
             name: "damage",
             unit: "1",
             width: 1,
-            of: |frame| frame.damage.iter().map(|d| *d as f32).collect(),
+            on_points: false,
+            source: (DAMAGE, 1),
+            of: |numbers| numbers.iter().map(|&damage| damage as f32).collect(),
         },
     ]
 }
 
-impl<V: Vector> Field<V> {
+impl Field {
     /// An empty dataset that holds the field for all steps, one after the other.
     pub(super) fn create(&self, group: &Group, rows: usize) -> hdf5::Result<Packed<f32>> {
         let shape: &[usize] = if self.width == 1 { &[rows] } else { &[rows, self.width] };
@@ -74,19 +94,19 @@ pub(super) fn padded<R: Row>(row: R) -> [f64; 3] {
     padded
 }
 
-fn vectors<V: Vector>(rows: &[V], scale: f64) -> Vec<f32> {
-    rows.iter()
-        .flat_map(|&row| padded(row).map(|component| (component * scale) as f32))
+fn vectors<V: Vector>(numbers: &[f64], scale: f64) -> Vec<f32> {
+    let rows = numbers.chunks_exact(V::WIDTH);
+    rows.flat_map(|row| padded(V::of(row)).map(|component| (component * scale) as f32))
         .collect()
 }
 
-/// In VTK's order, with zeros for what the tensor does not have.
-fn tensor<T: Tensor>(stress: &T) -> [f64; 6] {
-    let components = T::flat(std::slice::from_ref(stress));
-    T::IN_VTK.map(|component| component.map_or(0.0, |component| components[component]))
+/// In VTK's order, with zeros for what the tensors do not have.
+fn tensors<T: Tensor>(numbers: &[f64]) -> impl Iterator<Item = [f64; 6]> {
+    let tensors = numbers.chunks_exact(T::WIDTH);
+    tensors.map(|components| T::IN_VTK.map(|component| component.map_or(0.0, |component| components[component])))
 }
 
-/// Counterpart of [`tensor`].
+/// Counterpart of [`tensors`].
 pub(super) fn from_vtk<T: Tensor>(components: [f64; 6]) -> T {
     let mut stress = vec![0.0; T::WIDTH];
     let in_vtk = T::IN_VTK.into_iter().zip(components);

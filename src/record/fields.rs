@@ -9,16 +9,16 @@ use hdf5::Group;
 
 use super::arrays::new_group;
 use super::field::{Field, cell_fields, point_fields};
-use super::frames::{FieldMesh, Frame, Vector};
-use super::mesh::{Parts, Sizes, check_mesh};
+use super::frames::{FieldMesh, Vector};
+use super::mesh::{BLOCK_ROWS, Parts, Sizes, check_mesh};
 use super::packed::Packed;
 use super::pieces::FramePiece;
 use super::provenance::put_provenance;
-use super::snapshots::{read_cells, read_frame};
+use super::snapshots::OpenFrame;
 use super::steps::Steps;
 use super::{RecordError, file};
 
-/// Writes mesh and frames into a new file at `path`; holds one frame at a time. Frames with cells of their own bring them
+/// Writes mesh and frames into a new file at `path`; holds one field at a time. Frames with cells of their own bring them
 /// along; those that follow each other share what is the same.
 pub(super) fn assemble<V: Vector>(
     path: &Path,
@@ -32,25 +32,28 @@ pub(super) fn assemble<V: Vector>(
     put_provenance(&file, case_id).map_err(cannot_write)?;
     let grid = new_group(&file, "VTKHDF").map_err(cannot_write)?;
     let mut meshes = Parts::create(&grid, &sizes).map_err(cannot_write)?;
-    let mut fields = Fields::<V>::create(&grid, &sizes, &parts).map_err(cannot_write)?;
+    let mut fields = Fields::create::<V>(&grid, &sizes, &parts).map_err(cannot_write)?;
     let mut steps = Steps::default();
     let mut written = 0;
     for (piece, part) in frames.iter().zip(parts) {
-        let frame: Frame<V> = read_frame(&piece.path)?;
-        let [nodes, velocities] = [frame.displacement.len(), frame.velocity.len()];
+        let frame = OpenFrame::open(&piece.path)?;
         let Sizes { points, cells, .. } = sizes[part];
-        if [nodes, velocities, frame.stress.len()] != [points, points, cells] {
-            let what = "the frame has other nodes or cells than the mesh";
-            return Err(RecordError::gap(&piece.path, what));
-        }
         if written == part {
-            meshes
-                .append(frame.mesh.as_ref().unwrap_or(mesh))
-                .map_err(cannot_write)?;
+            let own = frame.cells()?;
+            meshes.append(own.as_ref().unwrap_or(mesh)).map_err(cannot_write)?;
             written += 1;
         }
-        fields.append(&frame).map_err(cannot_write)?;
-        steps.push(frame.step, frame.time, frame.strain, part);
+        for (field, packed) in &mut fields.0 {
+            let rows = if field.on_points { points } else { cells };
+            let (name, width) = field.source;
+            let numbers = frame.numbers(name, rows * width)?;
+            let mut blocks = numbers.chunks(BLOCK_ROWS * width);
+            blocks
+                .try_for_each(|block| packed.append(&(field.of)(block)))
+                .map_err(cannot_write)?;
+        }
+        let (step, time, strain) = frame.moment()?;
+        steps.push(step, time, strain, part);
     }
     meshes.finish().map_err(cannot_write)?;
     fields.finish().map_err(cannot_write)?;
@@ -68,12 +71,15 @@ fn lay_out<V: Vector>(
     let mut last: Option<Option<FieldMesh<V>>> = None;
     let mut parts = Vec::new();
     for piece in frames {
-        let cells = read_cells(&piece.path)?;
-        if last.as_ref() != Some(&cells) {
-            let mesh = cells.as_ref().unwrap_or(mesh);
-            check_mesh(mesh).map_err(|what| RecordError::gap(path, what))?;
-            sizes.push(Sizes::of(mesh));
-            last = Some(cells);
+        // Either all frames of a run have cells of their own or none.
+        if last != Some(None) {
+            let cells = OpenFrame::open(&piece.path)?.cells()?;
+            if last.as_ref() != Some(&cells) {
+                let mesh = cells.as_ref().unwrap_or(mesh);
+                check_mesh(mesh).map_err(|what| RecordError::gap(path, what))?;
+                sizes.push(Sizes::of(mesh));
+                last = Some(cells);
+            }
         }
         parts.push(sizes.len() - 1);
     }
@@ -81,30 +87,25 @@ fn lay_out<V: Vector>(
 }
 
 /// The datasets that hold a field for all steps, one after the other.
-struct Fields<V: Vector>(Vec<(Field<V>, Packed<f32>)>);
+struct Fields(Vec<(Field, Packed<f32>)>);
 
-impl<V: Vector> Fields<V> {
+impl Fields {
     /// For frames on these of the meshes of such sizes.
-    fn create(grid: &Group, sizes: &[Sizes], parts: &[usize]) -> hdf5::Result<Self> {
+    fn create<V: Vector>(grid: &Group, sizes: &[Sizes], parts: &[usize]) -> hdf5::Result<Self> {
         let of_frames: Vec<Sizes> = parts.iter().map(|&part| sizes[part]).collect();
         let all = Sizes::sum(&of_frames);
         let points = new_group(grid, "PointData")?;
         let cells = grid.group("CellData")?;
         let mut datasets = Vec::new();
-        for field in point_fields() {
+        for field in point_fields::<V>() {
             let packed = field.create(&points, all.points)?;
             datasets.push((field, packed));
         }
-        for field in cell_fields() {
+        for field in cell_fields::<V>() {
             let packed = field.create(&cells, all.cells)?;
             datasets.push((field, packed));
         }
         Ok(Fields(datasets))
-    }
-
-    fn append(&mut self, frame: &Frame<V>) -> hdf5::Result<()> {
-        let mut fields = self.0.iter_mut();
-        fields.try_for_each(|(field, packed)| packed.append(&(field.of)(frame)))
     }
 
     fn finish(self) -> hdf5::Result<()> {

@@ -10,6 +10,9 @@ use super::field::padded;
 use super::frames::{FieldMesh, Vector};
 use super::packed::Packed;
 
+/// Rows that are made ready for the file at once: many chunks, which are packed side by side.
+pub(super) const BLOCK_ROWS: usize = 1 << 19;
+
 /// How many points, cells and places of connectivity a mesh has.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Sizes {
@@ -71,11 +74,18 @@ impl Parts {
 
     pub(super) fn append<V: Vector>(&mut self, mesh: &FieldMesh<V>) -> hdf5::Result<()> {
         let types = mesh.offsets.windows(2).map(|ends| cell_type(ends[1] - ends[0]));
-        let points: Vec<f64> = mesh.points.iter().flat_map(|&point| padded(point)).collect();
+        for block in mesh.points.chunks(BLOCK_ROWS) {
+            let points: Vec<f64> = block.iter().flat_map(|&point| padded(point)).collect();
+            self.points.append(&points)?;
+        }
         let long = |numbers: &[u32]| -> Vec<i64> { numbers.iter().map(|&number| i64::from(number)).collect() };
-        self.points.append(&points)?;
-        self.connectivity.append(&long(&mesh.connectivity))?;
-        self.offsets.append(&long(&mesh.offsets))?;
+        for (packed, numbers) in [
+            (&mut self.connectivity, &mesh.connectivity),
+            (&mut self.offsets, &mesh.offsets),
+        ] {
+            let mut blocks = numbers.chunks(BLOCK_ROWS);
+            blocks.try_for_each(|block| packed.append(&long(block)))?;
+        }
         self.types.append(&types.collect::<Result<Vec<u8>, _>>()?)?;
         self.element_size.append(&mesh.element_size)
     }

@@ -4,24 +4,31 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use hdf5::Group;
+use ndarray::{ArrayView, s};
 
 use super::RecordError;
-use super::arrays::{Packing, get, get_column, get_scalar, new_group, put, put_scalar};
+use super::arrays::{Packing, get, get_scalar, new_group, put, put_scalar};
 use super::frames::{FieldMesh, Frame, Row, Vector};
+use super::packed::name_unit;
 use super::pieces::frame_path;
 use super::sealed::{self, Seal};
 
-/// What a picture is made of, field by field, so that no more than one of them need be in memory. Where ranks share the first
-/// three fields, all ask for each together, in this order.
+/// What takes rows of a field, block after block.
+pub type Give<'a, R> = &'a mut dyn FnMut(&[R]);
+
+/// What a picture is made of, field by field and these block by block, so that no field need be in memory. Where ranks share the
+/// first three fields, all ask for each together, in this order, and the first is given the blocks.
 pub trait Picture<V: Vector = [f64; 2]> {
     /// Step, time (ps) and nominal strain.
     fn moment(&self) -> (u64, f64, f64);
+    /// How many nodes and cells it has.
+    fn counts(&self) -> [usize; 2];
     /// A node: displacement (nm).
-    fn displacement(&self) -> Cow<'_, [V]>;
+    fn displacement(&self, give: Give<'_, V>);
     /// A node: velocity (nm/ps).
-    fn velocity(&self) -> Cow<'_, [V]>;
+    fn velocity(&self, give: Give<'_, V>);
     /// A cell: virial stress, eV/nm^3.
-    fn stress(&self) -> Cow<'_, [V::Stress]>;
+    fn stress(&self, give: Give<'_, V::Stress>);
     /// A cell: share of what could break that is broken, 0 to 1.
     fn damage(&self) -> Cow<'_, [f64]>;
     /// Its own cells where the mesh of the run changes.
@@ -33,16 +40,20 @@ impl<V: Vector> Picture<V> for Frame<V> {
         (self.step, self.time, self.strain)
     }
 
-    fn displacement(&self) -> Cow<'_, [V]> {
-        Cow::Borrowed(&self.displacement)
+    fn counts(&self) -> [usize; 2] {
+        [self.displacement.len(), self.stress.len()]
     }
 
-    fn velocity(&self) -> Cow<'_, [V]> {
-        Cow::Borrowed(&self.velocity)
+    fn displacement(&self, give: Give<'_, V>) {
+        give(&self.displacement);
     }
 
-    fn stress(&self) -> Cow<'_, [V::Stress]> {
-        Cow::Borrowed(&self.stress)
+    fn velocity(&self, give: Give<'_, V>) {
+        give(&self.velocity);
+    }
+
+    fn stress(&self, give: Give<'_, V::Stress>) {
+        give(&self.stress);
     }
 
     fn damage(&self) -> Cow<'_, [f64]> {
@@ -62,21 +73,57 @@ pub fn write_frame<V: Vector>(dir: &Path, picture: &impl Picture<V>) -> Result<(
 
 /// What a rank that writes nothing takes part in while the first writes a picture.
 pub fn give_frame<V: Vector>(picture: &impl Picture<V>) {
-    picture.displacement();
-    picture.velocity();
-    picture.stress();
+    picture.displacement(&mut |_| ());
+    picture.velocity(&mut |_| ());
+    picture.stress(&mut |_| ());
 }
 
-/// The cells of a picture that has its own.
-pub(super) fn read_cells<V: Vector>(path: &Path) -> Result<Option<FieldMesh<V>>, RecordError> {
-    let file = sealed::open(path, FRAME)?;
-    get_cells(&file).map_err(|cause| RecordError::damaged(path, cause))
+/// A picture of the run that is read field by field.
+pub(super) struct OpenFrame<'a> {
+    path: &'a Path,
+    file: hdf5::File,
 }
 
-pub(super) fn read_frame<V: Vector>(path: &Path) -> Result<Frame<V>, RecordError> {
-    let file = sealed::open(path, FRAME)?;
-    get_frame(&file).map_err(|cause| RecordError::damaged(path, cause))
+impl<'a> OpenFrame<'a> {
+    pub(super) fn open(path: &'a Path) -> Result<Self, RecordError> {
+        let file = sealed::open(path, FRAME)?;
+        Ok(Self { path, file })
+    }
+
+    /// Step, time (ps) and nominal strain.
+    pub(super) fn moment(&self) -> Result<(u64, f64, f64), RecordError> {
+        let time = self.read(|group| get_scalar(group, "time"))?;
+        let strain = self.read(|group| get_scalar(group, "strain"))?;
+        Ok((self.read(|group| get_scalar(group, "step"))?, time, strain))
+    }
+
+    /// A field in internal units, row by row, which is to have so many numbers.
+    pub(super) fn numbers(&self, name: &str, count: usize) -> Result<Vec<f64>, RecordError> {
+        let numbers: Vec<f64> = self.read(|group| get(group, name))?;
+        match numbers.len() == count {
+            true => Ok(numbers),
+            false => Err(RecordError::gap(
+                self.path,
+                "the frame has other nodes or cells than the mesh",
+            )),
+        }
+    }
+
+    /// The cells of a picture that has its own.
+    pub(super) fn cells<V: Vector>(&self) -> Result<Option<FieldMesh<V>>, RecordError> {
+        self.read(get_cells)
+    }
+
+    fn read<T>(&self, get: impl FnOnce(&Group) -> hdf5::Result<T>) -> Result<T, RecordError> {
+        get(&self.file).map_err(|cause| RecordError::damaged(self.path, cause))
+    }
 }
+
+/// The fields of a picture.
+pub(super) const DISPLACEMENT: &str = "displacement";
+pub(super) const VELOCITY: &str = "velocity";
+pub(super) const STRESS: &str = "stress";
+pub(super) const DAMAGE: &str = "damage";
 
 const FRAME: Seal = Seal {
     kind: "frame",
@@ -89,11 +136,12 @@ fn put_picture<V: Vector>(group: &Group, picture: &impl Picture<V>) -> hdf5::Res
     put_scalar(group, "step", "1", step)?;
     put_scalar(group, "time", "ps", time)?;
     put_scalar(group, "strain", "1", strain)?;
-    put_rows(group, "displacement", "nm", &picture.displacement())?;
-    put_rows(group, "velocity", "nm/ps", &picture.velocity())?;
-    put_rows(group, "stress", "eV/nm^3", &picture.stress())?;
+    let [nodes, cells] = picture.counts();
+    put_blocks(group, DISPLACEMENT, "nm", nodes, |give| picture.displacement(give))?;
+    put_blocks(group, VELOCITY, "nm/ps", nodes, |give| picture.velocity(give))?;
+    put_blocks(group, STRESS, "eV/nm^3", cells, |give| picture.stress(give))?;
     let damage = picture.damage();
-    put(group, "damage", "1", &[damage.len()], &damage, Packing::Plain)?;
+    put(group, DAMAGE, "1", &[damage.len()], &damage, Packing::Plain)?;
     match picture.mesh() {
         Some(mesh) => put_cells(&new_group(group, MESH)?, &mesh),
         None => Ok(()),
@@ -128,6 +176,34 @@ fn get_cells<V: Vector>(parent: &Group) -> hdf5::Result<Option<FieldMesh<V>>> {
     }))
 }
 
+/// So many rows that come in blocks.
+fn put_blocks<R: Row>(
+    group: &Group,
+    name: &str,
+    unit: &str,
+    count: usize,
+    all: impl FnOnce(Give<'_, R>),
+) -> hdf5::Result<()> {
+    let builder = group.new_dataset::<f64>().obj_track_times(false);
+    let dataset = builder.shape([count, R::WIDTH]).create(name)?;
+    name_unit(&dataset, unit)?;
+    let (mut written, mut result) = (0, Ok(()));
+    all(&mut |rows| {
+        let block = written..written + rows.len();
+        if result.is_ok() {
+            let view = ArrayView::from_shape([rows.len(), R::WIDTH], R::flat(rows));
+            let put = |view| dataset.write_slice(view, s![block.clone(), ..]);
+            result = view.map_err(|cause| cause.to_string().into()).and_then(put);
+        }
+        written = block.end;
+    });
+    result?;
+    if written != count {
+        return Err(format!("`{name}` has {written} rows instead of {count}").into());
+    }
+    dataset.flush()
+}
+
 fn put_rows<R: Row>(group: &Group, name: &str, unit: &str, rows: &[R]) -> hdf5::Result<()> {
     put(
         group,
@@ -141,18 +217,4 @@ fn put_rows<R: Row>(group: &Group, name: &str, unit: &str, rows: &[R]) -> hdf5::
 
 fn get_rows<R: Row>(group: &Group, name: &str) -> hdf5::Result<Vec<R>> {
     R::split(&get(group, name)?).ok_or_else(|| format!("`{name}` has no rows of {} numbers", R::WIDTH).into())
-}
-
-fn get_frame<V: Vector>(group: &Group) -> hdf5::Result<Frame<V>> {
-    let stress: Vec<V::Stress> = get_rows(group, "stress")?;
-    Ok(Frame {
-        step: get_scalar(group, "step")?,
-        time: get_scalar(group, "time")?,
-        strain: get_scalar(group, "strain")?,
-        displacement: get_rows(group, "displacement")?,
-        velocity: get_rows(group, "velocity")?,
-        damage: get_column(group, "damage", stress.len())?,
-        mesh: get_cells(group)?,
-        stress,
-    })
 }

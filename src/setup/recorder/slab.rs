@@ -10,7 +10,7 @@ use crate::lattice::triangular;
 use crate::mesh::Mesh;
 use crate::mesh::element::Element;
 use crate::record::frames::FieldMesh;
-use crate::record::{self, Picture, RecordError};
+use crate::record::{self, Give, Picture, RecordError};
 use crate::solver::{Moment, Reading, Slab, site_volume};
 
 impl Recorded<2> for Slab {
@@ -68,22 +68,31 @@ impl Picture for Snapshot<'_> {
         (self.moment.step, self.moment.time, self.moment.strain)
     }
 
-    fn displacement(&self) -> Cow<'_, [[f64; 2]]> {
+    fn counts(&self) -> [usize; 2] {
+        let mesh = self.moment.mesh;
+        [mesh.node_count(), mesh.elements.len()]
+    }
+
+    fn displacement(&self, give: Give<'_, [f64; 2]>) {
         let Moment {
             mesh, state, domain, ..
         } = self.moment;
         let [x, y] = &state.position;
-        let [from_x, from_y] = mesh.node_positions_of(&domain.elements());
-        let of_node = |node: usize| [x[node] - from_x[node], y[node] - from_y[node]];
-        Cow::Owned(domain.gather(Of::Nodes, of_node))
+        let of_node = |node: usize| {
+            let [from_x, from_y] = mesh.node_position(node);
+            [x[node] - from_x, y[node] - from_y]
+        };
+        domain.gather_in_blocks(Of::Nodes, of_node, |_, rows| give(rows));
     }
 
-    fn velocity(&self) -> Cow<'_, [[f64; 2]]> {
+    fn velocity(&self, give: Give<'_, [f64; 2]>) {
         let [x, y] = &self.moment.state.velocity;
-        Cow::Owned(self.moment.domain.gather(Of::Nodes, |node| [x[node], y[node]]))
+        let of_node = |node: usize| [x[node], y[node]];
+        let domain = self.moment.domain;
+        domain.gather_in_blocks(Of::Nodes, of_node, |_, rows| give(rows));
     }
 
-    fn stress(&self) -> Cow<'_, [[f64; 3]]> {
+    fn stress(&self, give: Give<'_, [f64; 3]>) {
         let Moment {
             mesh, measure, domain, ..
         } = self.moment;
@@ -91,7 +100,7 @@ impl Picture for Snapshot<'_> {
             let volume = mesh.elements[number].site_count() as f64 * self.site_volume;
             measure.virial(number).map(|component| component / volume)
         };
-        Cow::Owned(domain.gather(Of::Elements, of_element))
+        domain.gather_in_blocks(Of::Elements, of_element, |_, rows| give(rows));
     }
 
     fn damage(&self) -> Cow<'_, [f64]> {

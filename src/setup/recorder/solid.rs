@@ -1,6 +1,7 @@
 //! What of a solid goes into the folder of its run.
 
 use std::borrow::Cow;
+use std::ops::Range;
 use std::path::Path;
 
 use super::Recorded;
@@ -9,7 +10,7 @@ use crate::domain::Of;
 use crate::mesh::solid::Solid as Mesh;
 use crate::mesh::solid::element::Shape;
 use crate::record::frames::FieldMesh;
-use crate::record::{self, Picture, RecordError};
+use crate::record::{self, Give, Picture, RecordError};
 use crate::solver::solid::Row;
 use crate::solver::{Moment, Solid};
 
@@ -56,10 +57,14 @@ struct Snapshot<'a> {
 }
 
 impl Snapshot<'_> {
-    /// The elements of the cells.
-    fn elements(&self) -> impl Iterator<Item = usize> {
-        let elements = self.moment.mesh.elements.iter().enumerate();
-        elements.flat_map(|(number, element)| std::iter::repeat_n(number, cells(element.shape).len()))
+    /// The elements of the cells of some elements.
+    fn of_cells(&self, elements: Range<usize>) -> impl Iterator<Item = usize> {
+        let shapes = elements.map(|number| (number, self.moment.mesh.elements[number].shape));
+        shapes.flat_map(|(number, shape)| std::iter::repeat_n(number, cells(shape).len()))
+    }
+
+    fn of_all_cells(&self) -> impl Iterator<Item = usize> {
+        self.of_cells(0..self.moment.mesh.elements.len())
     }
 }
 
@@ -68,22 +73,28 @@ impl Picture<[f64; 3]> for Snapshot<'_> {
         (self.moment.step, self.moment.time, self.moment.strain)
     }
 
-    fn displacement(&self) -> Cow<'_, [[f64; 3]]> {
+    fn counts(&self) -> [usize; 2] {
+        [self.moment.mesh.node_count(), self.of_all_cells().count()]
+    }
+
+    fn displacement(&self, give: Give<'_, [f64; 3]>) {
         let Moment {
             mesh, state, domain, ..
         } = self.moment;
-        let [now, then] = [&state.position, &mesh.node_positions_of(&domain.elements())];
-        let of_node = |node: usize| [0, 1, 2].map(|axis| now[axis][node] - then[axis][node]);
-        Cow::Owned(domain.gather(Of::Nodes, of_node))
+        let of_node = |node: usize| {
+            let then = mesh.node_position(node);
+            [0, 1, 2].map(|axis| state.position[axis][node] - then[axis])
+        };
+        domain.gather_in_blocks(Of::Nodes, of_node, |_, rows| give(rows));
     }
 
-    fn velocity(&self) -> Cow<'_, [[f64; 3]]> {
-        let state = self.moment.state;
+    fn velocity(&self, give: Give<'_, [f64; 3]>) {
+        let Moment { state, domain, .. } = self.moment;
         let of_node = |node: usize| state.velocity.each_ref().map(|plane| plane[node]);
-        Cow::Owned(self.moment.domain.gather(Of::Nodes, of_node))
+        domain.gather_in_blocks(Of::Nodes, of_node, |_, rows| give(rows));
     }
 
-    fn stress(&self) -> Cow<'_, [[f64; 6]]> {
+    fn stress(&self, give: Give<'_, [f64; 6]>) {
         let Moment {
             mesh, measure, domain, ..
         } = self.moment;
@@ -91,16 +102,16 @@ impl Picture<[f64; 3]> for Snapshot<'_> {
             let volume = mesh.elements[number].site_count() as f64 * self.site_volume;
             measure.virial(number).map(|component| component / volume)
         };
-        let of_elements = domain.gather(Of::Elements, of_element);
-        if of_elements.is_empty() {
-            return Cow::Owned(of_elements);
-        }
-        Cow::Owned(self.elements().map(|number| of_elements[number]).collect())
+        domain.gather_in_blocks(Of::Elements, of_element, |from, rows| {
+            let of_cells = self.of_cells(from..from + rows.len());
+            let rows: Vec<[f64; 6]> = of_cells.map(|number| rows[number - from]).collect();
+            give(&rows);
+        });
     }
 
     fn damage(&self) -> Cow<'_, [f64]> {
         let broken = self.moment.broken;
-        Cow::Owned(self.elements().map(|number| broken[number]).collect())
+        Cow::Owned(self.of_all_cells().map(|number| broken[number]).collect())
     }
 
     fn mesh(&self) -> Option<Cow<'_, FieldMesh<[f64; 3]>>> {
