@@ -68,6 +68,15 @@ fn interaction(atoms: &case::Material) -> Result<(Interaction, f64), SetupError>
     Ok((interaction, atoms.mass * U_IN_EV_PS2_PER_NM2))
 }
 
+fn summation(of_case: case::Summation) -> Summation {
+    match of_case {
+        case::Summation::Exact => Summation::Exact,
+        case::Summation::Gauss { points } => Summation::Gauss { points },
+        case::Summation::StrictGauss { points } => Summation::StrictGauss { points },
+        case::Summation::Nodal => Summation::Nodal,
+    }
+}
+
 /// How a case is computed; `time_of` tells when its loading has made a nominal strain, ps.
 fn settings(case: &Case, time_of: impl Fn(f64) -> f64) -> solver::Settings {
     solver::Settings {
@@ -75,12 +84,7 @@ fn settings(case: &Case, time_of: impl Fn(f64) -> f64) -> solver::Settings {
             case::TimeStep::Auto { fraction } => TimeStep::Auto { fraction },
             case::TimeStep::Given(step) => TimeStep::Given(step),
         },
-        summation: match case.run.summation {
-            case::Summation::Exact => Summation::Exact,
-            case::Summation::Gauss { points } => Summation::Gauss { points },
-            case::Summation::StrictGauss { points } => Summation::StrictGauss { points },
-            case::Summation::Nodal => Summation::Nodal,
-        },
+        summation: summation(case.run.summation),
         consistent_mass: case.run.mass.consistent_share(),
         refine: None,
         relax: case.run.relax.is_some(),

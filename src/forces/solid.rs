@@ -21,10 +21,12 @@ mod inside;
 mod listed;
 mod lists;
 mod measure;
+mod nodal;
 mod pairs;
 mod points;
 pub mod referee;
 mod rule;
+mod scene;
 mod strained;
 mod sums;
 mod sweep;
@@ -81,6 +83,7 @@ pub struct Forces {
     /// Others' parts that border mine, ascending.
     bordering: Vec<u32>,
     material: Material,
+    summation: Summation,
     interfaces: Interfaces,
     classes: HashMap<(Shape, i32), Vec<Class>>,
     /// Places that stand for all bonds of patches between parts of blocks of a size.
@@ -117,12 +120,13 @@ impl Forces {
         let reach = material.interaction.cutoff() / material.spacing;
         let mut classes = HashMap::new();
         for group in mesh.groups() {
-            let of_kind = || inside::classes(group.shape, group.size, reach + LISTED_BEYOND_CUTOFF);
+            let of_kind = || inside::classes(summation, group.shape, group.size, reach + LISTED_BEYOND_CUTOFF);
             classes.entry((group.shape, group.size)).or_insert_with(of_kind);
         }
         let mut sizes: Vec<i32> = classes.keys().map(|&(_, size)| size).collect();
         sizes.sort_unstable();
         sizes.dedup();
+        sizes.retain(|_| summation != Summation::Nodal);
         let few = sizes
             .into_iter()
             .filter_map(|size| Some((size, Few::new(&material, summation, size - 2)?)));
@@ -146,6 +150,7 @@ impl Forces {
             domain,
             bordering,
             material,
+            summation,
             interfaces,
             few: few.collect(),
             classes,

@@ -63,12 +63,26 @@ fn settings(case: &Case, solid: &Solid) -> solver::Settings {
 /// Refuses what a study may ask for and the forces of solids do not have.
 pub fn refuse_what_is_not_there(case: &Case) -> Result<(), SetupError> {
     match case.run.summation {
-        Summation::Exact | Summation::Gauss { .. } => Ok(()),
-        Summation::StrictGauss { .. } | Summation::Nodal => Err(SetupError::NotThere {
+        Summation::Exact | Summation::Gauss { .. } | Summation::Nodal => Ok(()),
+        Summation::StrictGauss { .. } => Err(SetupError::NotThere {
             subject: Subject::Summation,
-            message: "in this version a solid is summed by every bond, or by a few points a patch where faces are hardly bent",
+            message: "in this version a few points stand for the bonds of a solid only where its faces are hardly bent",
             help: "write `summation: {gauss: 6}`, `{gauss: 3}` or `exact`",
         }),
+    }
+}
+
+/// A node of a block stands for dozens of atoms, and whatever borders on it would feel each of its bonds as often: nodes of
+/// blocks of another size bear it, atoms would need time steps several times shorter. `sizes`: how many sizes elements have.
+fn refuse_nodes_beside_others(summation: Summation, sizes: usize) -> Result<(), SetupError> {
+    match summation {
+        Summation::Nodal if sizes > 1 => Err(SetupError::NotThere {
+            subject: Subject::Summation,
+            message: "`nodal` takes a solid of whole blocks of one size, and here blocks border on atoms or on other blocks: \
+                      their bonds would count for dozens",
+            help: "give `specimen.blocks` and no `regions`; or write `summation: exact`",
+        }),
+        _ => Ok(()),
     }
 }
 
@@ -103,6 +117,7 @@ pub fn solver(case: &Case, solid: &Solid, ranks: Ranks) -> Result<Solver<solver:
     ranks.wait_for_all();
     let mesh = Mesh::new(&laid.plan);
     severed::refuse_severed_elements(&mesh)?;
+    refuse_nodes_beside_others(case.run.summation, mesh.sizes().len())?;
     let experiment = experiment::experiment(solid, &laid, &mesh, &material)?;
     if case.run.mass != MassMatrix::Lumped {
         refuse_half_held_elements(&mesh, &experiment)?;

@@ -131,7 +131,7 @@ pub enum Summation {
     /// Of each string of bonds between two elements its ends and this many Gauss points between them; in a solid 3 or 6 points
     /// of each patch of bonds between two faces.
     Gauss(Given<Gauss>),
-    /// Only the bonds of nodes: cheap, and wrong at every strain that is not uniform.
+    /// Only the bonds of nodes: cheap, and wrong at every strain. In a solid of whole blocks of one size alone.
     Nodal,
 }
 

@@ -2,6 +2,7 @@
 
 mod broken;
 mod checkpoints;
+mod nodal;
 mod severed;
 
 use std::convert::Infallible;
@@ -20,9 +21,7 @@ use cgaft::mesh::solid::{Plan, Solid as Mesh};
 use cgaft::potential::{AtCutoff, CutPotential, Interaction};
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::solid::{Experiment, Extension, Gauge, Kept, Row};
-use cgaft::solver::{
-    Cost, Ending, Moment, Motion, Observer, Progress, Settings, Solid, Solver, TimeStep, Until,
-};
+use cgaft::solver::{Cost, Ending, Moment, Motion, Observer, Progress, Settings, Solid, Solver, TimeStep, Until};
 
 use super::specimens::LENNARD_JONES;
 

@@ -47,32 +47,36 @@ impl<L: Simd> Edges<L> {
         below.or(string_below(simd, backward, limit))
     }
 
-    /// Forces on the ends of the first and of the second edges; all bonds are within the cutoff.
+    /// Forces on the ends of the first and of the second edges; all bonds are within the cutoff. `of_nodes`: only those at the
+    /// ends are looked at, each of which stands for so many.
     #[inline(always)]
     pub fn sum<S: PairShape, const MEASURED: bool>(
         &self,
         simd: L,
         law: &CutPotential<S>,
+        of_nodes: Option<f64>,
     ) -> ([[Vector<L>; 2]; 2], Held<L, MEASURED>) {
         let steps = self.size - 1;
         let per_step = 1.0 / f64::from(steps);
         let start = self.first[0] - self.second[0];
         let along = (self.first[1] - self.second[1] - start).scaled(per_step);
         let zero = Lanes::all(simd, 0.0);
-        let one = Lanes::all(simd, 1.0);
+        let count = of_nodes.unwrap_or(1.0);
+        let between = if of_nodes.is_some() { steps } else { 1 };
         let mut held = Held::new(simd);
         let [mut whole, mut first, mut square] = [zero; 3];
-        for p in 0..=steps {
+        for p in (0..=steps).step_by(between as usize) {
             let at = f64::from(p);
             let bond = along.scaled_add(at, start);
             let squared = bond.squared();
             let values = law.values(simd, squared);
             if MEASURED {
-                held.add(values, bond, within(simd, law, squared), one);
+                held.add(values, bond, within(simd, law, squared), Lanes::all(simd, count));
             }
-            whole = whole + values[1];
-            first = values[1].times_add(at, first);
-            square = values[1].times_add(at * at, square);
+            let slope = values[1] * count;
+            whole = whole + slope;
+            first = slope.times_add(at, first);
+            square = slope.times_add(at * at, square);
         }
         let force = along.times_add(first, start.times(whole));
         let far = along.times_add(square, start.times(first)).scaled(per_step);

@@ -10,10 +10,21 @@ use pulp::Simd;
 use super::certified::Few;
 use super::inside::within;
 use super::measure::Held;
+use super::nodal::bond_count;
 use super::rule::Sample;
 use super::vector::Vector;
 use crate::lanes::{Lanes, Mask};
 use crate::potential::{CutPotential, PairShape};
+
+/// Which bonds across a face are looked at.
+#[derive(Clone, Copy)]
+pub enum Bonds<'a> {
+    /// All, or these places that stand for them where they are hardly bent.
+    All(Option<&'a Few>),
+    /// Those at the corners of the tetrahedron's face, which each stand for half of what a node of the tetrahedron does, and half
+    /// of what one of the octahedron does where one is at their other end.
+    OfNodes { tetrahedron: f64, octahedron: f64 },
+}
 
 /// Forces on the corners of both faces.
 pub struct FaceForces<L: Simd> {
@@ -113,15 +124,25 @@ impl<L: Simd> Face<L> {
         excluded.opposite()
     }
 
-    /// The sum over all bonds, all of which are within the cutoff; `untouched` if no treatment of the cutoff reaches any. `few`
-    /// are places that stand for all bonds where these are hardly bent.
+    /// The bonds of a patch with nodes at their ends, where a node of the tetrahedron and one of the octahedron stand for so many
+    /// sites: [Deng2011] Eq. (3-33). The bond at a corner ends at the octahedron's node of that corner in one patch alone.
+    fn samples_of_nodes(&self, patch: usize, [tetrahedron, octahedron]: [f64; 2]) -> [Sample; 3] {
+        let far = f64::from(self.size - 2);
+        let corners = [[0.0, 0.0], [far, 0.0], [0.0, far]];
+        std::array::from_fn(|corner| Sample {
+            at: corners[corner],
+            weight: bond_count([tetrahedron, if corner == patch { octahedron } else { 0.0 }]),
+        })
+    }
+
+    /// The sum over bonds, all of which are within the cutoff; `untouched` if no treatment of the cutoff reaches any.
     #[inline(always)]
     pub fn sum<S: PairShape, const MEASURED: bool>(
         &self,
         simd: L,
         law: &CutPotential<S>,
         untouched: bool,
-        few: Option<&Few>,
+        bonds: Bonds,
     ) -> (FaceForces<L>, Held<L, MEASURED>) {
         let steps = self.size - 2;
         let per_step = 1.0 / f64::from(steps);
@@ -129,9 +150,11 @@ impl<L: Simd> Face<L> {
             (self.gaps[1] - self.gaps[0]).scaled(per_step),
             (self.gaps[2] - self.gaps[0]).scaled(per_step),
         ];
-        let few = few
-            .map(|few| (few, self.is_hardly_bent(simd, few)))
-            .filter(|(_, mask)| mask.any());
+        let few = match bonds {
+            Bonds::All(few) => few.map(|few| (few, self.is_hardly_bent(simd, few))),
+            Bonds::OfNodes { .. } => None,
+        };
+        let few = few.filter(|(_, mask)| mask.any());
         let all_few = few.is_some_and(|(_, mask)| mask.every());
         let mut held = Held::new(simd);
         // What pulls at T_i, and at O_b along the bonds of its own patch.
@@ -141,12 +164,19 @@ impl<L: Simd> Face<L> {
             let start = self.corner(patch, 0);
             let mut of_patch = Held::<L, MEASURED>::new(simd);
             let mut moments = Moments::new(simd);
-            if !all_few {
+            if let Bonds::OfNodes {
+                tetrahedron,
+                octahedron,
+            } = bonds
+            {
+                let samples = self.samples_of_nodes(patch, [tetrahedron, octahedron]);
+                moments = sum_few(simd, law, &samples, start, along, untouched, &mut of_patch);
+            } else if !all_few {
                 moments = sum_all(simd, law, steps, start, along, untouched, &mut of_patch);
             }
             if let Some((few, mask)) = few {
                 let mut of_few = Held::<L, MEASURED>::new(simd);
-                let by_few = sum_few(simd, law, &few.samples, start, along, &mut of_few);
+                let by_few = sum_few(simd, law, &few.samples, start, along, true, &mut of_few);
                 moments = by_few.where_or(mask, moments);
                 of_patch = of_few.where_or(mask, of_patch);
             }
@@ -264,7 +294,7 @@ fn sum_all<S: PairShape, L: Simd, const MEASURED: bool>(
     sums
 }
 
-/// A few places of a patch, none of which any treatment of the cutoff reaches.
+/// A few places of a patch; `untouched` if no treatment of the cutoff reaches any.
 #[inline(always)]
 fn sum_few<S: PairShape, L: Simd, const MEASURED: bool>(
     simd: L,
@@ -272,6 +302,7 @@ fn sum_few<S: PairShape, L: Simd, const MEASURED: bool>(
     samples: &[Sample],
     start: Vector<L>,
     along: [Vector<L>; 2],
+    untouched: bool,
     held: &mut Held<L, MEASURED>,
 ) -> Moments<L> {
     let mut sums = Moments::new(simd);
@@ -279,10 +310,12 @@ fn sum_few<S: PairShape, L: Simd, const MEASURED: bool>(
         let [p, q] = sample.at;
         let bond = along[0].scaled_add(p, along[1].scaled_add(q, start));
         let squared = bond.squared();
-        let slope = if MEASURED {
+        let slope = if MEASURED || !untouched {
             let values = law.values(simd, squared);
-            let weight = Lanes::all(simd, sample.weight);
-            held.add(values, bond, within(simd, law, squared), weight);
+            if MEASURED {
+                let weight = Lanes::all(simd, sample.weight);
+                held.add(values, bond, within(simd, law, squared), weight);
+            }
             values[1]
         } else {
             law.untouched_slopes(simd, squared)

@@ -6,6 +6,7 @@
 use nalgebra::{DMatrix, SymmetricEigen};
 
 use super::Forces;
+use super::nodal::{bond_count, site_weight_in_blocks};
 use crate::lattice::fcc;
 use crate::mesh::solid::element::{Element, Shape};
 
@@ -60,11 +61,8 @@ impl Forces {
 
     /// The largest eigenvalue of an element in the crystal at rest, bonds across faces of blocks counting so many times.
     fn at_rest(&self, shape: Shape, size: i32, across_faces: f64) -> f64 {
-        let element = Element {
-            shape,
-            size,
-            anchor: [0; 3],
-        };
+        let element = Element::in_block(shape, size);
+        let weight = |site| site_weight_in_blocks(self.summation, size, site);
         let nodes = shape.node_count();
         let mut stiffness = DMatrix::<f64>::zeros(3 * nodes, 3 * nodes);
         let spacing = self.material.spacing;
@@ -96,16 +94,18 @@ impl Forces {
             for local in element.locals() {
                 let own = element.shape_functions(local);
                 let other = std::array::from_fn(|axis| local[axis] + vector[axis]);
+                let count = bond_count([weight(local), weight(other)]);
                 if element.has_local(other) {
                     let theirs = element.shape_functions(other);
                     let difference: [f64; 6] = std::array::from_fn(|node| theirs[node] - own[node]);
-                    add(&difference[..nodes], 1.0);
+                    add(&difference[..nodes], count);
                 } else {
-                    add(&own[..nodes], times_of(other));
+                    add(&own[..nodes], count * times_of(other));
                 }
                 let before = std::array::from_fn(|axis| local[axis] - vector[axis]);
                 if !element.has_local(before) {
-                    add(&own[..nodes], times_of(before));
+                    let count = bond_count([weight(local), weight(before)]);
+                    add(&own[..nodes], count * times_of(before));
                 }
             }
         }

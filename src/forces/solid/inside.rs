@@ -5,7 +5,9 @@ use std::collections::BTreeMap;
 use pulp::Simd;
 
 use super::measure::Held;
+use super::nodal::{bond_count, site_weight};
 use super::vector::Vector;
+use crate::forces::Summation;
 use crate::lanes::Lanes;
 use crate::lattice::fcc;
 use crate::mesh::solid::element::{Element, Shape};
@@ -22,21 +24,19 @@ pub struct Class {
     count: f64,
 }
 
-/// The classes of bonds no longer than a radius, in spacings, inside an element of this kind.
-pub fn classes(shape: Shape, size: i32, radius: f64) -> Vec<Class> {
-    let element = Element {
-        shape,
-        size,
-        anchor: [0; 3],
-    };
-    let mut classes: BTreeMap<[i32; 6], ([i32; 6], u32)> = BTreeMap::new();
+/// The classes of bonds no longer than a radius, in spacings, that are summed inside an element of this kind.
+pub fn classes(summation: Summation, shape: Shape, size: i32, radius: f64) -> Vec<Class> {
+    let element = Element::in_block(shape, size);
+    let mut classes: BTreeMap<[i32; 6], ([i32; 6], f64)> = BTreeMap::new();
     let vectors = fcc::half_vectors_within(radius);
     for local in element.locals() {
         for vector in &vectors {
             let other = std::array::from_fn(|axis| local[axis] + vector[axis]);
-            if element.has_local(other) {
+            let ends = [local, other];
+            let weights = ends.map(|end| site_weight(summation, element, end));
+            if element.has_local(other) && weights != [0.0; 2] {
                 let steps = steps(element, local, other);
-                classes.entry(of_nodes(shape, steps)).or_insert((steps, 0)).1 += 1;
+                classes.entry(of_nodes(shape, steps)).or_insert((steps, 0.0)).1 += bond_count(weights);
             }
         }
     }
@@ -44,9 +44,9 @@ pub fn classes(shape: Shape, size: i32, radius: f64) -> Vec<Class> {
         Shape::Octahedron => f64::from(size - 1),
         _ => f64::from(size - 2),
     };
-    let class = |(steps, count): ([i32; 6], u32)| Class {
+    let class = |(steps, count): ([i32; 6], f64)| Class {
         steps: steps.map(|step| f64::from(step) / edge),
-        count: f64::from(count),
+        count,
     };
     classes.into_values().map(class).collect()
 }
@@ -203,7 +203,7 @@ mod tests {
     use super::*;
 
     fn counts(shape: Shape, radius: f64) -> Vec<f64> {
-        let mut counts: Vec<f64> = classes(shape, 10, radius)
+        let mut counts: Vec<f64> = classes(Summation::Exact, shape, 10, radius)
             .into_iter()
             .map(|class| class.count)
             .collect();

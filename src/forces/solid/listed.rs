@@ -23,6 +23,9 @@ pub struct Sum<'a, S, const MEASURED: bool> {
     pub severed: &'a Lists,
     /// Severed pairs repel each other when nearer than this, nm.
     pub spacing: f64,
+    /// Whether points stand for other numbers of sites than one each.
+    pub weighted: bool,
+    /// Where each point is, and how many sites it stands for.
     pub places: &'a [[f64; 4]],
     pub force: &'a mut [[Side; 3]],
     pub held: &'a mut [[Side; PARTS]],
@@ -41,11 +44,13 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
             bonded,
             severed,
             spacing,
+            weighted,
             places,
             force,
             held,
         } = self;
         let lanes = Lanes::<L>::COUNT;
+        let one = Lanes::all(simd, 1.0);
         let mut crowded = Vec::new();
         for (number, force) in force.iter_mut().enumerate() {
             let group = first + number;
@@ -56,30 +61,47 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
             let mut is_crowded = Mask::all(simd, false);
             let mut lane = 0;
             while lane < MOST {
-                let here = gather(simd, places, |k| group * MOST + lane + k);
+                let own = |k: usize| group * MOST + lane + k;
+                let here = gather(simd, places, own);
+                let weight = weights(simd, places, own);
                 let mut sum = Vector::zero(simd);
                 let mut of_pairs = Held::<L, MEASURED>::new(simd);
                 for partners in bonded.chunks_exact(MOST) {
-                    let bond = gather(simd, places, |k| partners[lane + k] as usize) - here;
+                    let partner = |k: usize| partners[lane + k] as usize;
+                    let bond = gather(simd, places, partner) - here;
                     let squared = bond.squared();
                     is_crowded = is_crowded.or(squared.is_below(close));
-                    if MEASURED {
-                        let values = law.values(simd, squared);
-                        of_pairs.add(values, bond, within(simd, &law, squared), Lanes::all(simd, 1.0));
-                        sum = bond.times_add(values[1], sum);
+                    let count = if weighted {
+                        counts(simd, places, weight, partner)
                     } else {
-                        sum = bond.times_add(law.slopes(simd, squared), sum);
-                    }
+                        one
+                    };
+                    let slope = if MEASURED {
+                        let values = law.values(simd, squared);
+                        of_pairs.add(values, bond, within(simd, &law, squared), count);
+                        values[1]
+                    } else {
+                        law.slopes(simd, squared)
+                    };
+                    let slope = if weighted { slope * count } else { slope };
+                    sum = bond.times_add(slope, sum);
                 }
                 for partners in severed.chunks_exact(MOST) {
-                    let bond = gather(simd, places, |k| partners[lane + k] as usize) - here;
+                    let partner = |k: usize| partners[lane + k] as usize;
+                    let bond = gather(simd, places, partner) - here;
                     let squared = bond.squared();
                     is_crowded = is_crowded.or(squared.is_below(close));
+                    let count = if weighted {
+                        counts(simd, places, weight, partner)
+                    } else {
+                        one
+                    };
                     let values = law.repulsions(simd, squared, spacing);
                     if MEASURED {
-                        of_pairs.add(values, bond, Lanes::all(simd, 0.0), Lanes::all(simd, 1.0));
+                        of_pairs.add(values, bond, Lanes::all(simd, 0.0), count);
                     }
-                    sum = bond.times_add(values[1], sum);
+                    let slope = if weighted { values[1] * count } else { values[1] };
+                    sum = bond.times_add(slope, sum);
                 }
                 for (plane, part) in force.iter_mut().zip([sum.x, sum.y, sum.z]) {
                     part.store(plane, lane, lanes);
@@ -96,6 +118,24 @@ impl<S: PairShape, const MEASURED: bool> WithSimd for Sum<'_, S, MEASURED> {
         }
         crowded
     }
+}
+
+/// How many sites some points stand for.
+#[inline(always)]
+fn weights<L: Simd>(simd: L, places: &[[f64; 4]], place: impl Fn(usize) -> usize) -> Lanes<L> {
+    Lanes::each(simd, |k| {
+        if k < Lanes::<L>::COUNT {
+            places[place(k)][3]
+        } else {
+            0.0
+        }
+    })
+}
+
+/// How many bonds those of points that stand for so many sites with others stand for: half of the energy belongs to either end.
+#[inline(always)]
+fn counts<L: Simd>(simd: L, places: &[[f64; 4]], weight: Lanes<L>, partner: impl Fn(usize) -> usize) -> Lanes<L> {
+    (weight + weights(simd, places, partner)) * 0.5
 }
 
 #[inline(always)]

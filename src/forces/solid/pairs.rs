@@ -14,10 +14,11 @@ use super::grid::Grid;
 use super::listed::{Side, Sum};
 use super::lists::{self, Lists};
 use super::measure::PARTS;
+use super::nodal::bond_count;
 use super::points::Points;
+use super::scene::Scene;
 use crate::forces::close::{Close, Crowd};
 use crate::lanes::MOST;
-use crate::mesh::solid::Solid;
 use crate::potential::{CutPotential, PairShape};
 
 /// Where the point is that stands for no partner: too far away for anything.
@@ -47,38 +48,11 @@ pub struct Pairs {
     /// Even motion of all these nodes since then.
     drift: Drift,
     lengths: Lengths,
-    /// Where the points are; after them the one that stands for nobody.
+    /// Where the points are, and how many sites each stands for; after them the one that stands for nobody.
     places: Vec<[f64; 4]>,
     /// Forces on the points and what pairs hold of them.
     pub force: Vec<[Side; 3]>,
     pub held: Vec<[Side; PARTS]>,
-}
-
-/// What a search starts from.
-pub struct Scene<'a> {
-    pub points: Points,
-    pub ready: Vec<u32>,
-    /// The elements of this rank, all in groups and all atoms.
-    pub elements: [Range<usize>; 2],
-    pub watched: Vec<Range<usize>>,
-    /// Parts that carry points or may come near any.
-    pub parts: &'a [u32],
-    pub mesh: &'a Solid,
-    pub position: &'a Planes,
-    pub lengths: Lengths,
-}
-
-impl Scene<'_> {
-    /// Where the nodes of the parts and of all atoms are; the others are untouched zeros, which take no memory.
-    fn places(&self) -> Planes {
-        self.position.each_ref().map(|plane| {
-            let mut places = vec![0.0; plane.len()];
-            let of_parts = self.parts.iter().flat_map(|&part| self.mesh.nodes_of(part as usize));
-            let all = of_parts.chain(self.mesh.part_nodes()..plane.len());
-            all.for_each(|node| places[node] = plane[node]);
-            places
-        })
-    }
 }
 
 impl Pairs {
@@ -115,7 +89,7 @@ impl Pairs {
             watched,
             drift: Drift::default(),
             lengths,
-            places: vec![[FAR_AWAY; 4]; count * MOST + 1],
+            places: vec![[FAR_AWAY, FAR_AWAY, FAR_AWAY, 0.0]; count * MOST + 1],
             force: vec![[[0.0; MOST]; 3]; count],
             held: Vec::new(),
             points,
@@ -261,8 +235,9 @@ impl Pairs {
                 .enumerate()
                 .with_min_len(MOST * CHUNK);
             places.for_each(|(number, place)| {
-                let [x, y, z] = self.points.place(range.start + number, position);
-                *place = [x, y, z, 0.0];
+                let point = range.start + number;
+                let [x, y, z] = self.points.place(point, position);
+                *place = [x, y, z, self.points.weight(point)];
             });
         }
         self.is_current(position)
@@ -319,6 +294,7 @@ impl Pairs {
             held,
             ..
         } = self;
+        let weighted = self.points.are_weighted();
         let mut held: Vec<&mut [[Side; PARTS]]> = held.chunks_mut(CHUNK).collect();
         held.resize_with(groups.div_ceil(CHUNK), Default::default);
         let chunks = force.par_chunks_mut(CHUNK).zip(held).enumerate();
@@ -330,6 +306,7 @@ impl Pairs {
                 bonded,
                 severed,
                 spacing: close.spacing,
+                weighted,
                 places,
                 force,
                 held,
@@ -344,9 +321,10 @@ impl Pairs {
     fn crowd<S: PairShape>(&self, law: &CutPotential<S>, close: Close, group: usize) -> Crowd {
         let mut crowds = [Crowd::NONE; MOST];
         for (lists, severed) in [(&self.bonded, false), (&self.severed, true)] {
-            self.for_each_of(lists, group, |[point, _], bond| {
+            self.for_each_of(lists, group, |[point, partner], bond| {
                 let squared = bond.iter().map(|component| component * component).sum();
-                crowds[point as usize % MOST].add(close, law, squared, severed, 1.0);
+                let count = bond_count([point, partner].map(|point| self.points.weight(point as usize)));
+                crowds[point as usize % MOST].add(close, law, squared, severed, count);
             });
         }
         crowds.into_iter().fold(Crowd::NONE, Crowd::and)

@@ -3,6 +3,8 @@
 use std::ops::Range;
 
 use super::Planes;
+use super::nodal::site_weight;
+use crate::forces::Summation;
 use crate::lanes::MOST;
 use crate::mesh::solid::Solid;
 use crate::mesh::solid::cut::Cut;
@@ -18,6 +20,8 @@ pub struct Points {
     /// What may sever them, and the lattice site of each where anything does.
     cut: Option<Cut>,
     sites: Vec<[i32; 3]>,
+    /// How many sites each of a part stands for; empty where each stands for itself.
+    weights: Vec<f64>,
     of_parts: usize,
     first_atom: usize,
     first_atom_node: usize,
@@ -27,8 +31,8 @@ pub struct Points {
 const NOBODY: u32 = u32::MAX;
 
 impl Points {
-    /// Sites of parts, ascending, and all atoms.
-    pub fn new(mesh: &Solid, sites: &[(u32, [i32; 3])]) -> Self {
+    /// Sites of parts, ascending, and all atoms, which stand for so many sites as a rule of summation says.
+    pub fn new(mesh: &Solid, sites: &[(u32, [i32; 3])], summation: Summation) -> Self {
         if sites.is_empty() && mesh.atom_count() == 0 {
             return Self::default();
         }
@@ -50,6 +54,10 @@ impl Points {
         points.element.resize(points.of_parts.next_multiple_of(MOST), NOBODY);
         points.first_atom = points.element.len();
         points.element.extend(mesh.parts as u32..mesh.elements.len() as u32);
+        if summation == Summation::Nodal {
+            let weight = |&(part, local): &(u32, [i32; 3])| site_weight(summation, mesh.elements[part as usize], local);
+            points.weights = sites.iter().map(weight).collect();
+        }
         if mesh.sites.cut.is_some() {
             points.cut = mesh.sites.cut;
             let of_parts = sites.iter();
@@ -101,6 +109,17 @@ impl Points {
     pub fn are_severed(&self, point: usize, other: usize) -> bool {
         self.cut
             .is_some_and(|cut| cut.severs(self.sites[point], self.sites[other]))
+    }
+
+    /// Whether points stand for other numbers of sites than one each.
+    pub fn are_weighted(&self) -> bool {
+        !self.weights.is_empty()
+    }
+
+    /// How many sites a point stands for.
+    #[inline(always)]
+    pub fn weight(&self, point: usize) -> f64 {
+        self.weights.get(point).copied().unwrap_or(1.0)
     }
 
     /// Nodes that carry a point of a part, and their weights.

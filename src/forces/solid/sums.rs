@@ -11,6 +11,7 @@ use super::exposed::{self, Exposed, Sides};
 use super::measure::PARTS;
 use super::pairs::{self, Pairs};
 use super::points::Points;
+use super::scene::Scene;
 use super::strained::{self, Strained};
 use super::sweep::{self, Field, Sweep, Tile};
 use super::{ForceError, Forces, Measure, Planes};
@@ -124,6 +125,7 @@ impl Forces {
     ) -> Vec<u32> {
         let field = Field {
             law: *law,
+            summation: self.summation,
             mesh: &self.mesh,
             classes: &self.classes,
             few: &self.few,
@@ -192,8 +194,8 @@ impl Forces {
         };
         let exposed = Exposed::new(&scene, sides);
         let pairs = Pairs::search(
-            pairs::Scene {
-                points: Points::new(&self.mesh, &exposed.sites),
+            Scene {
+                points: Points::new(&self.mesh, &exposed.sites, self.summation),
                 watched: self.watched(&exposed.parts),
                 parts: &exposed.parts,
                 mesh: &self.mesh,

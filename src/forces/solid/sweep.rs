@@ -10,12 +10,13 @@ use pulp::{Simd, WithSimd};
 
 use super::certified::Few;
 use super::edges::{Edges, string_below};
-use super::faces::Face;
+use super::faces::{Bonds, Face};
 use super::inside::{self, Class};
 use super::measure::{Held, PARTS};
 use super::vector::Vector;
+use crate::forces::Summation;
 use crate::lanes::{Lanes, Mask};
-use crate::mesh::solid::element::Shape;
+use crate::mesh::solid::element::{Element, Shape};
 use crate::mesh::solid::interfaces::{Interfaces, Run};
 use crate::mesh::solid::template::{BORDERS, Contact};
 use crate::mesh::solid::{Group, Solid};
@@ -73,6 +74,7 @@ pub fn tile(mesh: &Solid, interfaces: &Interfaces, groups: Range<usize>) -> Tile
 /// What all tiles look at.
 pub struct Field<'a, S> {
     pub law: CutPotential<S>,
+    pub summation: Summation,
     pub mesh: &'a Solid,
     pub classes: &'a HashMap<(Shape, i32), Vec<Class>>,
     /// Places that stand for all bonds of patches between parts of blocks of a size.
@@ -178,7 +180,16 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
         let limits = [law.squared_cutoff(), law.squared_untouched()];
         let limit = law.squared_cutoff();
         let size = groups[0].size;
-        let few = self.field.few.get(&size);
+        let of_node = |shape| Element::in_block(shape, size).lumped_mass();
+        let [tetrahedron, octahedron] = [Shape::Low, Shape::Octahedron].map(of_node);
+        let is_nodal = self.field.summation == Summation::Nodal;
+        let bonds = match is_nodal {
+            true => Bonds::OfNodes {
+                tetrahedron,
+                octahedron,
+            },
+            false => Bonds::All(self.field.few.get(&size)),
+        };
         let mut at = 0;
         while at < run.len {
             let count = Lanes::<L>::COUNT.min(run.len - at);
@@ -204,7 +215,7 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                         continue;
                     }
                     let untouched = !touched.and(intact).any();
-                    let (forces, held) = face.sum::<S, MEASURED>(simd, &law, untouched, few);
+                    let (forces, held) = face.sum::<S, MEASURED>(simd, &law, untouched, bonds);
                     if is_mine[0] {
                         let forces = where_intact(simd, forces.on_tetrahedron, intact);
                         self.add(groups[0], parts[0], tetrahedron, forces, count);
@@ -225,7 +236,7 @@ impl<S: PairShape, const MEASURED: bool> Sweep<'_, S, MEASURED> {
                         tell(lost, number, count, irregular);
                         continue;
                     }
-                    let (forces, held) = edges.sum::<S, MEASURED>(simd, &law);
+                    let (forces, held) = edges.sum::<S, MEASURED>(simd, &law, is_nodal.then_some(octahedron));
                     if is_mine[0] {
                         self.add(groups[0], parts[0], first, where_intact(simd, forces[0], intact), count);
                     }

@@ -1,5 +1,6 @@
 mod constants;
 mod dispersion;
+mod nodal;
 mod searches;
 mod severed;
 
@@ -59,15 +60,20 @@ fn displaced(mesh: &Solid, gradient: [[f64; 3]; 3], amplitude: f64) -> Planes {
     position
 }
 
-fn check_against_referee(mesh: Solid, material: Material, mut position: Planes) -> usize {
-    let mut forces = Forces::new(mesh, material);
+fn check_against_referee(mesh: Solid, material: Material, position: Planes) -> usize {
+    check_rule_against_referee(mesh, material, Summation::Exact, position)
+}
+
+/// How many interfaces are open then.
+fn check_rule_against_referee(mesh: Solid, material: Material, summation: Summation, mut position: Planes) -> usize {
+    let mut forces = Forces::shared(Ranks::alone(), mesh, material, summation);
     let mesh = forces.mesh().clone();
     let mut force = [0, 1, 2].map(|_| vec![0.0; mesh.node_count()]);
     let mut measure = Measure::default();
     forces
         .compute_and_measure(&mut position, &mut force, &mut measure)
         .expect("nothing flies away");
-    let (expected, held) = referee::forces(&mesh, &material, &position);
+    let (expected, held) = referee::forces(&mesh, &material, summation, &position);
     let largest = expected
         .iter()
         .flatten()

@@ -49,6 +49,15 @@ impl Element {
         }
     }
 
+    /// A part of the block of so many sites an edge at the origin.
+    pub fn in_block(shape: Shape, size: i32) -> Self {
+        Self {
+            shape,
+            size,
+            anchor: [0; 3],
+        }
+    }
+
     /// Local coordinates of the nodes, in node order: the tetrahedra's corners from the outer one on; of the octahedron +U, -U,
     /// +V, -V, +W, -W.
     pub fn corners(self) -> Vec<[i32; 3]> {

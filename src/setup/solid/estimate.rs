@@ -1,15 +1,18 @@
 //! What a solid will cost, before anything is computed.
 
+use std::collections::HashSet;
+
 use super::specimen::{Kind, Specimen, site_count};
-use super::{lay_out, material, refuse_what_is_not_there, strain_rate};
+use super::{lay_out, material, refuse_nodes_beside_others, refuse_what_is_not_there, strain_rate};
+use crate::domain::Ranks;
 use crate::forces::solid::Forces;
 use crate::material::Material;
 use crate::mesh::solid::sites::{Frame, Outline, Sites};
 use crate::mesh::solid::{Plan, SMALLEST_BLOCK, Solid as Mesh};
 use crate::setup::expected::{Expected, ranks, time_of_run};
 use crate::setup::intervals::between_pictures;
-use crate::setup::{SetupError, memory};
-use crate::study::case::{self, Case, MassMatrix, Solid, TimeStep};
+use crate::setup::{self, SetupError, memory};
+use crate::study::case::{self, Case, MassMatrix, Solid, Summation, TimeStep};
 
 /// Bytes of a process that computes hardly anything, and what an atom and a node of an element add, from the peaks of the film of
 /// `quickstart-3d.yaml` in atoms and of the bar of `wave-bar.yaml` in blocks of five cells.
@@ -34,8 +37,16 @@ const SECONDS_A_FACE_SITE: f64 = 1e-9;
 /// Estimates solids, and remembers what many cases of one study have in common.
 #[derive(Default)]
 pub struct Estimator {
-    /// Squared highest frequencies of elements of one size, 1/ps^2.
-    frequencies: Vec<(case::Material, u32, MassMatrix, f64)>,
+    frequencies: Vec<(Kin, f64)>,
+}
+
+/// What has one squared highest frequency, 1/ps^2: elements of one size.
+#[derive(Clone, PartialEq)]
+struct Kin {
+    material: case::Material,
+    size: u32,
+    mass: MassMatrix,
+    summation: Summation,
 }
 
 impl Estimator {
@@ -45,7 +56,9 @@ impl Estimator {
         let laid = lay_out(solid, material.spacing)?;
         refuse_what_does_not_fit(site_count(&laid.plan), solid.resolution.element, ranks(case))?;
         let specimen = Specimen::of(case, solid, &laid, &material);
-        let stability_limit = self.stability_limit(case.run.mass, solid, &material, &specimen);
+        let sizes: HashSet<u32> = specimen.kinds.iter().map(|kind| kind.size).collect();
+        refuse_nodes_beside_others(case.run.summation, sizes.len())?;
+        let stability_limit = self.stability_limit(&case.run, solid, &material, &specimen);
         let time_step = match case.run.time_step {
             TimeStep::Auto { fraction } => fraction * stability_limit,
             TimeStep::Given(step) => step,
@@ -92,16 +105,20 @@ impl Estimator {
 
     /// The stability limit of the perfect crystal in this mesh, ps: that of its stiffest size of elements, each looked at in two
     /// blocks of its own.
-    fn stability_limit(&mut self, mass: MassMatrix, solid: &Solid, material: &Material, specimen: &Specimen) -> f64 {
+    fn stability_limit(&mut self, run: &case::Run, solid: &Solid, material: &Material, specimen: &Specimen) -> f64 {
         let mut most = 0.0;
         for &Kind { size, .. } in &specimen.kinds {
-            let is_known = |known: &&(case::Material, u32, MassMatrix, f64)| {
-                known.0 == solid.material && known.1 == size && known.2 == mass
+            let kin = Kin {
+                material: solid.material.clone(),
+                size,
+                mass: run.mass,
+                summation: run.summation,
             };
-            let found = self.frequencies.iter().find(is_known).map(|known| known.3);
-            let squared = found.unwrap_or_else(|| squared_frequency(material, size, mass));
+            let found = self.frequencies.iter().find(|(known, _)| *known == kin);
+            let found = found.map(|(_, squared)| *squared);
+            let squared = found.unwrap_or_else(|| squared_frequency(material, &kin));
             if found.is_none() {
-                self.frequencies.push((solid.material.clone(), size, mass, squared));
+                self.frequencies.push((kin, squared));
             }
             most = f64::max(most, squared);
         }
@@ -148,7 +165,8 @@ pub fn refuse_what_does_not_fit(sites: u64, element: u32, ranks: u32) -> Result<
     }
 }
 
-fn squared_frequency(material: &Material, size: u32, mass: MassMatrix) -> f64 {
+fn squared_frequency(material: &Material, kin: &Kin) -> f64 {
+    let size = kin.size;
     let cells = size.max(SMALLEST_BLOCK as u32) as i32;
     let plan = Plan {
         sites: Sites {
@@ -163,6 +181,7 @@ fn squared_frequency(material: &Material, size: u32, mass: MassMatrix) -> f64 {
     };
     let mesh = Mesh::new(&plan);
     let position = mesh.node_positions();
-    let forces = Forces::new(mesh, *material).with_consistent_mass(mass.consistent_share());
+    let forces = Forces::shared(Ranks::alone(), mesh, *material, setup::summation(kin.summation));
+    let forces = forces.with_consistent_mass(kin.mass.consistent_share());
     forces.squared_frequency_bound(&position)
 }

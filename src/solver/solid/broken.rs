@@ -102,7 +102,11 @@ impl Bonds {
             return Vec::new();
         }
         let number = |atom: usize| (mesh.parts + atom) as u32;
-        let of_atom = |atom: usize| self.single.of_atom(atom).map(move |(_, other)| [atom, other as usize].map(number));
+        let of_atom = |atom: usize| {
+            self.single
+                .of_atom(atom)
+                .map(move |(_, other)| [atom, other as usize].map(number))
+        };
         let between_atoms = (0..self.single.atom_count()).flat_map(of_atom);
         let between_atoms = between_atoms.filter(|ends| is_severed(mesh, ends.map(|end| (end, [0; 3]))));
         let of_parts = self.single.of_parts.iter().filter(|ends| is_severed(mesh, **ends));

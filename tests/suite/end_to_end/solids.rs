@@ -127,3 +127,26 @@ fn any_number_of_ranks_and_threads_computes_a_solid_to_the_same_bytes() {
         }
     }
 }
+
+#[test]
+fn the_bonds_of_nodes_make_a_solid_of_whole_blocks_to_the_same_bytes_and_no_other() {
+    let text = SOLID.replace("study: solid", "study: slab");
+    let text = text.replace("threads: 1", "threads: 1, summation: nodal");
+    let mixed = text.find("  mixed:").expect("the study has this case");
+    let place = Workspace::with(&text[..mixed]);
+    let told = place.cgaft("check", &[]).succeeded().stdout;
+    assert!(told.contains("`summation: nodal` fails the patch test"), "{told}");
+    place.cgaft("run", &[]).succeeded();
+    let run = place.case("elements");
+    for (count, threads) in [(1, "2"), (3, "1")] {
+        let into = place.path(&format!("{count} ranks"));
+        let job = &mut ranks(count, &run.join("case.yaml"), &into, &["--threads", threads]);
+        Program::start(job, &place).wait(PATIENCE).succeeded();
+        assert_same_results(&into, &run);
+    }
+    let refused = Workspace::with(&text).cgaft("check", &[]).ended_with(2).stderr;
+    assert!(
+        refused.contains("mixed") && refused.contains("whole blocks of one size"),
+        "{refused}"
+    );
+}
