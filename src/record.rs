@@ -33,13 +33,14 @@ mod setting;
 mod snapshots;
 mod steps;
 
+pub use arrays::Give;
 pub use cut_back::cut_back;
 pub use error::RecordError;
 pub use publish::{publish_fields, publish_series};
 pub use read_fields::{FrameReader, read_fields};
 pub use segments::{read_segments, write_segment};
 pub use series::read_series;
-pub use snapshots::{Give, Picture, give_frame, write_frame};
+pub use snapshots::{Picture, give_frame, write_frame};
 
 /// Names of the files in a run's folder.
 pub const CHECKPOINT_FILE: &str = "checkpoint.h5";

@@ -305,7 +305,7 @@ impl<B: Instruments<D>, const D: usize> Solver<B, D> {
         let motion = self.motion();
         match self.ranks().is_first() {
             true => (observer.checkpoint(&checkpoint, &motion, &self.cost())).map_err(RunError::Output)?,
-            false => motion.planes().for_each(drop),
+            false => (0..Motion::<D>::PLANES).for_each(|number| motion.plane(number, &mut |_| ())),
         }
         self.cost.book(Phase::Output, &mut clock);
         Ok(())

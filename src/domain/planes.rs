@@ -9,13 +9,8 @@ use crate::mesh::grouped::Grouped;
 const BLOCK: usize = 1 << 18;
 
 impl Domain {
-    /// Brings some numbers of each node or element to the first rank, from the rank that computes it; the others get none. All
-    /// ranks must call this together.
-    pub fn gather<const N: usize>(&self, of: Of, row: impl Fn(usize) -> [f64; N]) -> Vec<[f64; N]> {
-        self.gather_range(of, 0..self.count_of(of), &row)
-    }
-
-    /// The same in blocks, which the first rank is given one after the other, each with the number of its first row.
+    /// Brings some numbers of each node or element to the first rank, from the rank that computes it: in blocks, which it is given
+    /// one after the other, each with the number of its first row. All ranks must call this together.
     pub fn gather_in_blocks<const N: usize>(
         &self,
         of: Of,

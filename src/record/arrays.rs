@@ -1,7 +1,7 @@
 //! Numbers with their unit as HDF5 datasets.
 
 use hdf5::{Group, H5Type};
-use ndarray::{ArrayView, IxDyn};
+use ndarray::{ArrayView, IxDyn, s};
 
 use super::packed::{Number, Packed, name_unit};
 
@@ -43,6 +43,41 @@ pub(super) fn put<T: Number>(
     let builder = group.new_dataset_builder().obj_track_times(false);
     let dataset = builder.with_data(view).create(name)?;
     name_unit(&dataset, unit)?;
+    dataset.flush()
+}
+
+/// What takes some numbers or rows, block after block.
+pub type Give<'a, R> = &'a mut dyn FnMut(&[R]);
+
+/// Writes an array of one or two axes as it is, whose rows come in blocks.
+pub(super) fn put_blocks(
+    group: &Group,
+    name: &str,
+    unit: &str,
+    shape: &[usize],
+    all: impl FnOnce(Give<'_, f64>),
+) -> hdf5::Result<()> {
+    let builder = group.new_dataset::<f64>().obj_track_times(false);
+    let dataset = builder.shape(shape).create(name)?;
+    name_unit(&dataset, unit)?;
+    let width = shape[1..].iter().product::<usize>();
+    let (mut written, mut result) = (0, Ok(()));
+    all(&mut |numbers| {
+        let rows = written..written + numbers.len() / width;
+        written = rows.end;
+        if result.is_ok() {
+            result = match shape {
+                [_] => dataset.write_slice(numbers, s![rows]),
+                _ => ArrayView::from_shape([rows.len(), width], numbers)
+                    .map_err(|cause| cause.to_string().into())
+                    .and_then(|block| dataset.write_slice(block, s![rows, ..])),
+            };
+        }
+    });
+    result?;
+    if written != shape[0] {
+        return Err(format!("`{name}` has {written} rows instead of {}", shape[0]).into());
+    }
     dataset.flush()
 }
 

@@ -4,13 +4,12 @@ mod slab;
 mod solid;
 
 use std::array;
-use std::borrow::Cow;
 use std::path::Path;
 
 use hdf5::Group;
 
 use super::RecordError;
-use super::arrays::{Packing, get, get_scalar, put, put_scalar};
+use super::arrays::{Give, Packing, get, get_scalar, put, put_blocks, put_scalar};
 use super::sealed::{self, Seal};
 use crate::solver::checkpoint::Checkpoint;
 
@@ -28,20 +27,25 @@ pub fn write<K: Keep, const D: usize>(
     case_id: &str,
     checkpoint: &Checkpoint<K, D>,
 ) -> Result<(), RecordError> {
-    let planes = checkpoint.position.iter().chain(&checkpoint.velocity);
-    let planes = planes.map(|plane| Cow::Borrowed(&plane[..]));
-    write_with(path, case_id, checkpoint, planes)
+    let planes = [&checkpoint.position, &checkpoint.velocity];
+    let nodes = checkpoint.position[0].len();
+    write_with(path, case_id, checkpoint, nodes, |number, give| {
+        give(&planes[number / D][number % D])
+    })
 }
 
-/// The same with the planes of the positions, then those of the velocities, each of which is asked for when the one before has
-/// been written, so that no more than one need be in memory.
-pub fn write_with<'a, K: Keep, const D: usize>(
+/// The same with planes of so many nodes, those of the positions first, then those of the velocities. Each is asked for by its number
+/// when the one before has been written, and given block by block.
+pub fn write_with<K: Keep, const D: usize>(
     path: &Path,
     case_id: &str,
     checkpoint: &Checkpoint<K, D>,
-    planes: impl Iterator<Item = Cow<'a, [f64]>>,
+    nodes: usize,
+    plane: impl FnMut(usize, Give<'_, f64>),
 ) -> Result<(), RecordError> {
-    sealed::write(path, seal(case_id), |group| put_checkpoint(group, checkpoint, planes))
+    sealed::write(path, seal(case_id), |group| {
+        put_checkpoint(group, checkpoint, nodes, plane)
+    })
 }
 
 /// Reads what [`write`] wrote for the same case, every number to the bit.
@@ -58,26 +62,6 @@ fn seal(case_id: &str) -> Seal<'_> {
     }
 }
 
-/// Planes, an axis each.
-fn put_planes<'a>(
-    group: &Group,
-    name: &str,
-    unit: &str,
-    planes: impl Iterator<Item = Cow<'a, [f64]>>,
-) -> hdf5::Result<()> {
-    for (axis, plane) in AXES.iter().zip(planes) {
-        put(
-            group,
-            &format!("{name}_{axis}"),
-            unit,
-            &[plane.len()],
-            &plane,
-            Packing::Plain,
-        )?;
-    }
-    Ok(())
-}
-
 fn get_planes<const D: usize>(group: &Group, name: &str) -> hdf5::Result<[Vec<f64>; D]> {
     let mut planes = array::from_fn(|_| Vec::new());
     for (axis, plane) in AXES.iter().zip(&mut planes) {
@@ -88,10 +72,11 @@ fn get_planes<const D: usize>(group: &Group, name: &str) -> hdf5::Result<[Vec<f6
 
 const AXES: [&str; 3] = ["x", "y", "z"];
 
-fn put_checkpoint<'a, K: Keep, const D: usize>(
+fn put_checkpoint<K: Keep, const D: usize>(
     group: &Group,
     checkpoint: &Checkpoint<K, D>,
-    mut planes: impl Iterator<Item = Cow<'a, [f64]>>,
+    nodes: usize,
+    mut plane: impl FnMut(usize, Give<'_, f64>),
 ) -> hdf5::Result<()> {
     // Taken apart by name, so that a new member cannot be forgotten here.
     let Checkpoint {
@@ -115,8 +100,13 @@ fn put_checkpoint<'a, K: Keep, const D: usize>(
         looks,
         kept,
     } = checkpoint;
-    put_planes(group, "position", "nm", planes.by_ref().take(D))?;
-    put_planes(group, "velocity", "nm/ps", planes.by_ref().take(D))?;
+    for (first, name, unit) in [(0, "position", "nm"), (D, "velocity", "nm/ps")] {
+        for (axis, letter) in AXES[..D].iter().enumerate() {
+            put_blocks(group, &format!("{name}_{letter}"), unit, &[nodes], |give| {
+                plane(first + axis, give)
+            })?;
+        }
+    }
     let interfaces = [open_interfaces.len()];
     put(
         group,

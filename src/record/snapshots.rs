@@ -4,17 +4,12 @@ use std::borrow::Cow;
 use std::path::Path;
 
 use hdf5::Group;
-use ndarray::{ArrayView, s};
 
 use super::RecordError;
-use super::arrays::{Packing, get, get_scalar, new_group, put, put_scalar};
+use super::arrays::{Give, Packing, get, get_scalar, new_group, put, put_blocks, put_scalar};
 use super::frames::{FieldMesh, Frame, Row, Vector};
-use super::packed::name_unit;
 use super::pieces::frame_path;
 use super::sealed::{self, Seal};
-
-/// What takes rows of a field, block after block.
-pub type Give<'a, R> = &'a mut dyn FnMut(&[R]);
 
 /// What a picture is made of, field by field and these block by block, so that no field need be in memory. Where ranks share the
 /// first three fields, all ask for each together, in this order, and the first is given the blocks.
@@ -137,9 +132,9 @@ fn put_picture<V: Vector>(group: &Group, picture: &impl Picture<V>) -> hdf5::Res
     put_scalar(group, "time", "ps", time)?;
     put_scalar(group, "strain", "1", strain)?;
     let [nodes, cells] = picture.counts();
-    put_blocks(group, DISPLACEMENT, "nm", nodes, |give| picture.displacement(give))?;
-    put_blocks(group, VELOCITY, "nm/ps", nodes, |give| picture.velocity(give))?;
-    put_blocks(group, STRESS, "eV/nm^3", cells, |give| picture.stress(give))?;
+    put_field(group, DISPLACEMENT, "nm", nodes, |give| picture.displacement(give))?;
+    put_field(group, VELOCITY, "nm/ps", nodes, |give| picture.velocity(give))?;
+    put_field(group, STRESS, "eV/nm^3", cells, |give| picture.stress(give))?;
     let damage = picture.damage();
     put(group, DAMAGE, "1", &[damage.len()], &damage, Packing::Plain)?;
     match picture.mesh() {
@@ -177,31 +172,16 @@ fn get_cells<V: Vector>(parent: &Group) -> hdf5::Result<Option<FieldMesh<V>>> {
 }
 
 /// So many rows that come in blocks.
-fn put_blocks<R: Row>(
+fn put_field<R: Row>(
     group: &Group,
     name: &str,
     unit: &str,
     count: usize,
     all: impl FnOnce(Give<'_, R>),
 ) -> hdf5::Result<()> {
-    let builder = group.new_dataset::<f64>().obj_track_times(false);
-    let dataset = builder.shape([count, R::WIDTH]).create(name)?;
-    name_unit(&dataset, unit)?;
-    let (mut written, mut result) = (0, Ok(()));
-    all(&mut |rows| {
-        let block = written..written + rows.len();
-        if result.is_ok() {
-            let view = ArrayView::from_shape([rows.len(), R::WIDTH], R::flat(rows));
-            let put = |view| dataset.write_slice(view, s![block.clone(), ..]);
-            result = view.map_err(|cause| cause.to_string().into()).and_then(put);
-        }
-        written = block.end;
-    });
-    result?;
-    if written != count {
-        return Err(format!("`{name}` has {written} rows instead of {count}").into());
-    }
-    dataset.flush()
+    put_blocks(group, name, unit, &[count, R::WIDTH], |give| {
+        all(&mut |rows| give(R::flat(rows)));
+    })
 }
 
 fn put_rows<R: Row>(group: &Group, name: &str, unit: &str, rows: &[R]) -> hdf5::Result<()> {

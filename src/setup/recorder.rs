@@ -9,7 +9,7 @@ use super::RunCaseError;
 use crate::record::checkpoint::Keep;
 use crate::record::frames::{FieldMesh, Vector};
 use crate::record::rows::{Described, Rows};
-use crate::record::{self, CHECKPOINT_FILE, RecordError};
+use crate::record::{self, CHECKPOINT_FILE, Give, RecordError};
 use crate::solver::checkpoint::Checkpoint;
 use crate::solver::{self, Cost, Instruments, Moment, Motion, Observer, Progress, Solver};
 use crate::store::{Account, Phase, Spent};
@@ -110,7 +110,8 @@ impl<B: Recorded<D>, const D: usize> Observer<B, D> for Recorder<'_, RowsOf<B, D
     ) -> Result<(), RunCaseError> {
         self.flush()?;
         let path = self.folder.join(CHECKPOINT_FILE);
-        record::checkpoint::write_with(&path, &self.case_id, checkpoint, motion.planes())?;
+        let plane = |number: usize, give: Give<'_, f64>| motion.plane(number, give);
+        record::checkpoint::write_with(&path, &self.case_id, checkpoint, motion.nodes(), plane)?;
         Ok(self.account.save(&spent(cost))?)
     }
 

@@ -1,7 +1,5 @@
 //! Who looks at a run, and what it is shown.
 
-use std::borrow::Cow;
-
 use super::body::Instruments;
 use super::checkpoint::Checkpoint;
 use super::cost::Cost;
@@ -52,24 +50,34 @@ pub struct Motion<'a, const D: usize> {
 }
 
 impl<const D: usize> Motion<'_, D> {
-    /// The positions, an axis after the other, then the velocities; empty but on the first rank. All ranks must ask for each
-    /// together.
-    pub fn planes(&self) -> impl Iterator<Item = Cow<'_, [f64]>> {
+    /// How many nodes the specimen has.
+    pub fn nodes(&self) -> usize {
+        self.state.position[0].len()
+    }
+
+    /// How many planes there are: the positions, an axis after the other, then the velocities.
+    pub const PLANES: usize = 2 * D;
+
+    /// Gives the first rank a plane block by block. All ranks must ask for it together.
+    pub fn plane(&self, number: usize, give: &mut dyn FnMut(&[f64])) {
         let State { position, velocity, .. } = self.state;
-        let planes = position.iter().chain(velocity);
-        planes.map(|plane| match self.domain.ranks().count() {
-            1 => Cow::Borrowed(&plane[..]),
-            _ => Cow::Owned(self.domain.gather(Of::Nodes, |node| [plane[node]]).into_flattened()),
-        })
+        let plane = [position, velocity][number / D][number % D].as_slice();
+        match self.domain.ranks().count() {
+            1 => give(plane),
+            _ => self
+                .domain
+                .gather_in_blocks(Of::Nodes, |node| [plane[node]], |_, rows| give(rows.as_flattened())),
+        }
     }
 
     /// A checkpoint with these.
     pub fn complete<K: Clone>(&self, checkpoint: &Checkpoint<K, D>) -> Checkpoint<K, D> {
         let mut complete = checkpoint.clone();
         let places = complete.position.iter_mut().chain(&mut complete.velocity);
-        places
-            .zip(self.planes())
-            .for_each(|(place, plane)| *place = plane.into_owned());
+        for (number, place) in places.enumerate() {
+            place.clear();
+            self.plane(number, &mut |block| place.extend_from_slice(block));
+        }
         complete
     }
 }
