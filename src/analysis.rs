@@ -8,6 +8,7 @@ pub mod damage;
 pub mod frame;
 pub mod history;
 pub mod initiation;
+pub mod passage;
 pub mod path;
 pub mod regression;
 pub mod scaling;

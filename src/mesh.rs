@@ -2,6 +2,7 @@
 //!
 //! A mesh knows no forces. Elements share no nodes: triangles come first, then the atoms. [`groups`] tells how nodes are numbered.
 
+mod carriers;
 pub mod cut;
 pub mod element;
 pub mod grouped;

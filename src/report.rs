@@ -262,6 +262,8 @@ fn remove_old(folder: &Path) -> Result<(), ReportError> {
         }
     }
     let optional = [
+        "arrivals.csv",
+        "arrivals.parquet",
         "cheapest_choice.csv",
         "cheapest_choice.parquet",
         "speed_against_error.csv",

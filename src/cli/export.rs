@@ -14,6 +14,7 @@ use crate::domain::Ranks;
 use crate::export::lammps::{Crystal, ExportError, Model, Motion, SolidModel, Times};
 use crate::loading::Grip;
 use crate::plan::{Plan, PlannedCase};
+use crate::setup::slab::loading::grip;
 use crate::setup::{self, SetupError};
 use crate::solver::{Body as _, Solver, Until};
 use crate::state::State;
@@ -53,10 +54,17 @@ pub fn lammps(arguments: &Arguments) -> Result<u8, CliError> {
     };
     match &case.body {
         Body::Slab(slab) => {
+            let Some(rate) = slab.loading.strain_rate() else {
+                return Err(CliError::Input(format!(
+                    "case `{}`: a pulse on a slab is not written for LAMMPS in this version; export a case that is pulled with a \
+                     `strain-rate`, or the pulse of a solid",
+                    planned.name
+                )));
+            };
             let material = setup::slab::material(slab).map_err(refused)?;
             let solver = setup::slab::solver(case, slab).map_err(refused)?;
             let model = Model::new(case, slab, &material, solver.mesh()).map_err(no_equal)?;
-            let motion = motion(case, slab, &solver);
+            let motion = motion(case, rate, grip(slab), &solver);
             let script = |head: &[String]| model.script(head, &planned.name, &motion);
             input.write(&model.crystal, slab_remarks(case, slab), script, solver.state())
         }
@@ -173,7 +181,10 @@ fn write(path: &Path, content: impl FnOnce(&mut BufWriter<File>) -> io::Result<(
 /// Where the run of a slab differs from that of cgaft.
 fn slab_remarks(case: &case::Case, slab: &case::Slab) -> Vec<&'static str> {
     let until = &case.run.until;
-    let case::Loading::StrainRate { sponge, damping, .. } = slab.loading;
+    let (has_sponge, is_damped) = match slab.loading {
+        case::Loading::StrainRate { sponge, damping, .. } => (sponge.is_some(), damping.is_some()),
+        case::Loading::Pulse { .. } => (false, false),
+    };
     let crack_stops = [
         until.crack_length,
         until.arrest,
@@ -182,11 +193,11 @@ fn slab_remarks(case: &case::Case, slab: &case::Slab) -> Vec<&'static str> {
     ];
     let remarks = [
         (
-            sponge.is_some(),
+            has_sponge,
             "The sponge layers of the case are left out: its waves come back from the grips.",
         ),
         (
-            damping.is_some(),
+            is_damped,
             "The damping of the case is left out: it gets as hot as it gets.",
         ),
         (
@@ -202,14 +213,10 @@ fn slab_remarks(case: &case::Case, slab: &case::Slab) -> Vec<&'static str> {
         .collect()
 }
 
-fn motion(case: &case::Case, slab: &case::Slab, solver: &Solver) -> Motion {
-    let case::Loading::StrainRate { rate, .. } = slab.loading;
+fn motion(case: &case::Case, rate: f64, grip: Grip, solver: &Solver) -> Motion {
     Motion {
         rate,
-        grip: match slab.specimen.grips {
-            case::Grips::Clamped => Grip::Clamped,
-            case::Grips::Sliding => Grip::Sliding,
-        },
+        grip,
         times: times(case, Some(rate), solver.time_step()[0]),
     }
 }

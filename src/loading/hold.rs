@@ -14,6 +14,8 @@ pub struct Hold<const D: usize> {
     nodes: Vec<u32>,
     /// nm/ps
     velocity: [f64; D],
+    /// Along which axes they are held.
+    axes: [bool; D],
     /// Whether what is next to them starts with their velocity.
     is_followed: bool,
     work: Work,
@@ -34,21 +36,31 @@ impl<const D: usize> Hold<D> {
             work: Work::none(nodes.len()),
             nodes,
             velocity,
+            axes: [true; D],
             is_followed,
         }
+    }
+
+    /// The same along some axes, with the nodes free along the others.
+    pub fn along(self, axes: [bool; D]) -> Self {
+        Self { axes, ..self }
     }
 
     /// The force that holds a node, eV/nm.
     #[inline(always)]
     fn on_node(&self, place: usize, state: &State<D>) -> [f64; D] {
-        state.force.each_ref().map(|plane| -plane[self.nodes[place] as usize])
+        let node = self.nodes[place] as usize;
+        std::array::from_fn(|axis| match self.axes[axis] {
+            true => -state.force[axis][node],
+            false => 0.0,
+        })
     }
 }
 
 impl<const D: usize> Load<D> for Hold<D> {
     fn hold(&self, state: &mut State<D>) {
         for &node in &self.nodes {
-            for axis in 0..D {
+            for axis in (0..D).filter(|&axis| self.axes[axis]) {
                 state.mobility[axis][node as usize] = 0.0;
                 state.velocity[axis][node as usize] = self.velocity[axis];
             }
@@ -133,6 +145,18 @@ mod tests {
         let mut at_rest = Hold::at_rest(vec![0]);
         at_rest.book(&state, 0.5);
         assert_eq!(at_rest.work(Ranks::alone()), 0.0);
+    }
+
+    #[test]
+    fn nodes_that_are_held_along_one_axis_are_free_along_the_others() {
+        let mut state = State::at_rest([vec![0.0; 2], vec![0.0; 2]], vec![1.0; 2]);
+        state.velocity = [vec![0.5; 2], vec![0.5; 2]];
+        let hold = Hold::at_rest(vec![1]).along([false, true]);
+        hold.hold(&mut state);
+        assert_eq!(state.velocity, [vec![0.5, 0.5], vec![0.5, 0.0]]);
+        assert_eq!(state.mobility, [vec![1.0, 1.0], vec![1.0, 0.0]]);
+        state.force = [vec![0.0, 3.0], vec![0.0, -4.0]];
+        assert_eq!(hold.pull(&state, Ranks::alone()), [0.0, 4.0]);
     }
 
     #[test]

@@ -6,7 +6,7 @@ mod solid;
 use crate::{
     study::case::{
         AtCutoff, Body, Case, Execution, MassMatrix, Material, Noise, Potential, PotentialShape, Ramp, Run, Slab,
-        SnapshotInterval, Solid, Summation, TimeStep, Until,
+        SnapshotInterval, Solid, Summation, TimeStep, Until, solid::PulseShape,
     },
     units::{self, Dimension},
 };
@@ -44,6 +44,7 @@ fn slab_spelled(slab: &Slab) -> Value {
         resolution,
         crack,
         loading,
+        gauges,
     } = slab;
     let regions: Vec<Value> = resolution.regions.iter().map(slab::region).collect();
     let mut whole = json!({
@@ -60,6 +61,9 @@ fn slab_spelled(slab: &Slab) -> Value {
         whole["crack"] = slab::notch(crack);
     }
     whole["loading"] = slab::load(loading);
+    if !gauges.is_empty() {
+        whole["gauges"] = slab::gauges(gauges);
+    }
     whole
 }
 
@@ -88,6 +92,13 @@ fn ramp(ramp: Ramp) -> &'static str {
     match ramp {
         Ramp::InitialVelocity => "initial-velocity",
         Ramp::AtRest => "at-rest",
+    }
+}
+
+fn pulse_shape(shape: PulseShape) -> &'static str {
+    match shape {
+        PulseShape::HalfSine => "half-sine",
+        PulseShape::Gaussian => "gaussian",
     }
 }
 

@@ -48,7 +48,9 @@ fn the_cases_of_the_quickstart_keep_their_ids() {
 fn a_case_changes_only_what_it_names() {
     let cases = with("cases:\n  A: {}\n  B: {loading: {strain-rate: {rate: 9.2e6 /s}}, crack: {length: 225 nm}}\n");
     let [a, b] = [&cases[0].case, &cases[1].case];
-    let crate::study::case::Loading::StrainRate { rate, ramp, .. } = b.slab().unwrap().loading;
+    let crate::study::case::Loading::StrainRate { rate, ramp, .. } = b.slab().unwrap().loading else {
+        panic!("it is pulled");
+    };
     assert_eq!(rate, 9.2e-6);
     assert_eq!(ramp, crate::study::case::Ramp::AtRest);
     assert_eq!(b.slab().unwrap().crack.as_ref().unwrap().length, 225.0);

@@ -12,7 +12,7 @@ mod surfaces;
 mod tables;
 mod verdict;
 
-pub use series::{Gauge, Series};
+pub use series::{Gauge, Series, along};
 pub use specimen::{Crystal, Solid, Specimen};
 
 use std::path::Path;

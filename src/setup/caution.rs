@@ -4,7 +4,7 @@ use super::intervals::between_pictures;
 use super::slab::material;
 use super::slab::refined::{self, Growth};
 use super::solid;
-use crate::study::case::{Body, Case, Loading, Slab, Summation};
+use crate::study::case::{Body, Case, Slab, Summation};
 
 /// A sheet of atoms is about as thick as its atoms are apart; thicker or thinner than this many times, it is a slip of a unit.
 const UNLIKELY_THICKNESS: f64 = 20.0;
@@ -21,10 +21,7 @@ pub fn cautions(case: &Case, time: f64) -> Vec<String> {
 /// Pictures that the run ends before.
 fn pictures(case: &Case, time: f64) -> Option<String> {
     let strain_rate = match &case.body {
-        Body::Slab(slab) => {
-            let Loading::StrainRate { rate, .. } = slab.loading;
-            Some(rate)
-        }
+        Body::Slab(slab) => slab.loading.strain_rate(),
         Body::Solid(solid) => solid::strain_rate(solid),
     };
     let every = between_pictures(case, strain_rate).filter(|&every| every > time)?;

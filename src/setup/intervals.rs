@@ -2,7 +2,7 @@
 
 use super::SetupError;
 use crate::study::Subject;
-use crate::study::case::{Body, Case, Loading, SnapshotInterval};
+use crate::study::case::{Body, Case, Loading, Slab, SnapshotInterval};
 
 /// Meshes of one study have steps of other lengths, so that some probes and pictures more than steps are no mistake; more than
 /// these a step are one.
@@ -12,11 +12,11 @@ const MOST_A_STEP: f64 = 10.0;
 /// would take all motion out within a step. The time step in ps.
 pub fn refuse_too_short(case: &Case, strain_rate: Option<f64>, time_step: f64) -> Result<(), SetupError> {
     let damping = match &case.body {
-        Body::Slab(slab) => {
-            let Loading::StrainRate { damping, .. } = slab.loading;
-            damping
-        }
-        Body::Solid(_) => None,
+        Body::Slab(Slab {
+            loading: Loading::StrainRate { damping, .. },
+            ..
+        }) => *damping,
+        Body::Slab(_) | Body::Solid(_) => None,
     };
     let step = ("a step", time_step);
     let part = ("a tenth of a step", time_step / MOST_A_STEP);

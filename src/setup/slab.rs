@@ -5,13 +5,13 @@ mod census;
 pub mod estimate;
 pub mod geometry;
 pub mod leftovers;
+pub mod loading;
 pub mod refined;
 
 use super::{SetupError, interaction};
 use crate::domain::Ranks;
 use crate::lattice::triangular;
-use crate::loading::{Grip, Layers, Sponge, Stretching};
-use crate::material::{Material, WaveSpeeds};
+use crate::material::Material;
 use crate::mesh::cut::{Crack, Side, WantedEnd};
 use crate::mesh::region::{Region, Shape};
 use crate::mesh::sites::{Layout, SiteSet};
@@ -61,23 +61,8 @@ pub fn mesh_plan(slab: &Slab, until: &case::Until, material: &Material) -> Resul
             spacing,
         });
     }
-    let case::Loading::StrainRate { rate, sponge, .. } = slab.loading;
     let height = f64::from((layout.rows - 2) * layout.block) * triangular::ROW_HEIGHT * spacing;
-    let speed = 0.5 * rate * height;
-    let sound = WaveSpeeds::of(material).longitudinal;
-    if speed > sound {
-        return Err(SetupError::FasterThanSound { speed, sound });
-    }
-    let element_row = f64::from(slab.resolution.element) * triangular::ROW_HEIGHT * spacing;
-    if let Some(sponge) = sponge.filter(|sponge| 2.0 * sponge >= height) {
-        return Err(SetupError::SpongesMeet { sponge, height });
-    }
-    if let Some(sponge) = sponge.filter(|&sponge| sponge < element_row) {
-        return Err(SetupError::SpongeTooThin {
-            sponge,
-            row: element_row,
-        });
-    }
+    loading::refuse_grips(slab, height, material)?;
     refuse_cracks_beyond(slab, until, &SiteSet::new(layout), spacing)?;
     let highest = (layout.rows - layout.rows / 2 - 1) * layout.block;
     let element = |element: u32| match u16::try_from(element) {
@@ -170,32 +155,17 @@ pub fn shared_solver(case: &Case, slab: &Slab, ranks: Ranks) -> Result<Solver, S
     // All have looked at what is free before any takes of it.
     ranks.wait_for_all();
     let mesh = Mesh::new(&plan);
-    let case::Loading::StrainRate {
-        mode: case::Mode::I,
-        rate,
-        ramp,
-        sponge,
-        damping,
-    } = slab.loading;
-    let grip = match slab.specimen.grips {
-        case::Grips::Clamped => Grip::Clamped,
-        case::Grips::Sliding => Grip::Sliding,
-    };
-    let loading = Stretching::new(&mesh, rate, grip, ramp == case::Ramp::InitialVelocity);
-    let wave_speed = WaveSpeeds::of(&material).longitudinal;
-    let layers = sponge.map(|width| Layers { width, wave_speed });
-    let is_damped = layers.is_some() || damping.is_some();
-    let sponge = is_damped.then(|| Sponge::new(&mesh, rate, layers, damping.unwrap_or(0.0)));
-    let loading = loading.from_strain(case.run.relax.unwrap_or(0.0)).with_sponge(sponge);
-    Ok(Solver::shared(ranks, mesh, material, loading, settings(case, slab))?)
+    let load = loading::load(case, slab, &mesh, &material);
+    let solver = Solver::shared(ranks, mesh, material, load, settings(case, slab))?;
+    Ok(solver.with_gauges(&slab.gauges))
 }
 
 fn settings(case: &Case, slab: &Slab) -> solver::Settings {
-    let case::Loading::StrainRate { rate, .. } = slab.loading;
+    let rate = slab.loading.strain_rate();
     let refine = slab.resolution.refine;
     solver::Settings {
         refine: refine.map(|case::Refine { error, ahead }| solver::Refine { error, ahead }),
         thickness: slab.material.thickness,
-        ..super::settings(case, |strain| strain / rate)
+        ..super::settings(case, |strain| rate.map_or(f64::INFINITY, |rate| strain / rate))
     }
 }

@@ -6,6 +6,7 @@ mod crack;
 mod gauges;
 pub mod j_integral;
 mod keep;
+mod planes;
 mod probe;
 mod read;
 mod refinement;
@@ -31,7 +32,7 @@ use crate::analysis::initiation;
 use crate::analysis::series::Setting;
 use crate::domain::{Domain, Ranks};
 use crate::forces::{ForceError, Forces, Measure, Summation};
-use crate::loading::{Load, Stretching};
+use crate::loading::{Load, SlabLoad};
 use crate::material::Material;
 use crate::mesh::Mesh;
 use crate::relaxation::{self, Target};
@@ -40,15 +41,16 @@ use ahead::Next;
 use crack::Crack;
 use gauges::Gauges;
 use j_integral::JIntegral;
+use planes::Planes;
 use probe::{Interior, ProfileLine};
 use refinement::Refinement;
 use sight::Sight;
 use traction::Traction;
 
-/// A slab in motion: its forces, its grips, and what is read of it.
+/// A slab in motion: its forces, its load, and what is read of it.
 pub struct Slab {
     forces: Forces,
-    loading: Stretching,
+    loading: SlabLoad,
     setting: Setting,
     measure: Measure,
     next: Next,
@@ -62,6 +64,7 @@ struct Probes {
     profile: ProfileLine,
     traction: Traction,
     gauges: Gauges,
+    planes: Planes,
     thermometer: Thermometer,
     /// `None` where bonds of nodes stand for all others, so that the stress of the bonds is not what moves the nodes.
     j_integral: Option<JIntegral>,
@@ -76,7 +79,12 @@ struct Probes {
 
 impl Solver {
     /// A specimen at the start of its loading.
-    pub fn new(mesh: Mesh, material: Material, loading: Stretching, settings: Settings) -> Result<Self, SolverError> {
+    pub fn new(
+        mesh: Mesh,
+        material: Material,
+        loading: impl Into<SlabLoad>,
+        settings: Settings,
+    ) -> Result<Self, SolverError> {
         Self::shared(Ranks::alone(), mesh, material, loading, settings)
     }
 
@@ -85,10 +93,11 @@ impl Solver {
         ranks: Ranks,
         mesh: Mesh,
         material: Material,
-        mut loading: Stretching,
+        loading: impl Into<SlabLoad>,
         settings: Settings,
     ) -> Result<Self, SolverError> {
         let start = Instant::now();
+        let mut loading: SlabLoad = loading.into();
         let mut setting = setting::setting(&mesh, &material, &loading, settings.thickness);
         let element = setting.element_at_crack;
         if settings.refine.is_some() {
@@ -101,12 +110,11 @@ impl Solver {
         let mut state = State::of_elements(mesh, &mine, material.site_mass, settings.consistent_mass);
         loading.pre_stretch(mesh, &mut state);
         loading.start(mesh, &mut state);
-        let refine = settings.refine;
+        let refine = settings.refine.filter(|_| loading.stretching().is_some());
         let refinement = refine.map(|refine| Refinement::new(refine, &forces, element, &settings));
-        let held = loading.held();
-        let nothing = [vec![0.0; held.len()], vec![0.0; loading.sponge_size()]];
-        forces.look_at(held.into_iter());
-        loading.belong_to(&forces.domain().nodes(), &nothing[0], &nothing[1]);
+        forces.look_at(loading.held().into_iter());
+        let nothing = loading.nothing_booked();
+        loading.belong_to(&forces.domain().nodes(), &nothing);
         let slab = Slab {
             forces,
             loading,
@@ -130,8 +138,21 @@ impl Solver {
     }
 
     /// Where the wave gauges stand, nm from the left edge and from the crack plane.
-    pub fn gauge_places(&self) -> &[[f64; 2]] {
+    pub fn gauge_places(&self) -> Vec<[f64; 2]> {
         self.body.gauge_places()
+    }
+
+    /// The same with gauges across the slab, so many nm from its left edge.
+    pub fn with_gauges(mut self, at: &[f64]) -> Self {
+        let Slab {
+            forces,
+            setting,
+            probes,
+            ..
+        } = &mut self.body;
+        probes.planes = Planes::new(forces.mesh(), setting, at);
+        probes.sight.add(probes.planes.elements());
+        self
     }
 }
 
@@ -140,7 +161,7 @@ impl Probes {
     fn new(
         mesh: &Mesh,
         material: Material,
-        loading: &Stretching,
+        loading: &SlabLoad,
         setting: &Setting,
         element: u32,
         settings: &Settings,
@@ -157,6 +178,7 @@ impl Probes {
             profile,
             traction,
             gauges,
+            planes: Planes::default(),
             broken: Vec::new(),
             crack: Crack::new(setting),
             watch: watch::Watch::new(setting),
@@ -184,8 +206,8 @@ impl Slab {
     }
 
     /// Where the wave gauges stand, nm from the left edge and from the crack plane.
-    pub fn gauge_places(&self) -> &[[f64; 2]] {
-        self.probes.gauges.places()
+    pub fn gauge_places(&self) -> Vec<[f64; 2]> {
+        [self.probes.gauges.places(), self.probes.planes.places()].concat()
     }
 
     /// A crack that has set out before the motion begins would be taken for the notch.
@@ -205,7 +227,7 @@ impl Slab {
 }
 
 impl Body<2> for Slab {
-    type Load = Stretching;
+    type Load = SlabLoad;
 
     fn domain(&self) -> &Domain {
         self.forces.domain()
@@ -215,11 +237,11 @@ impl Body<2> for Slab {
         self.forces.domain_mut()
     }
 
-    fn load(&self) -> &Stretching {
+    fn load(&self) -> &SlabLoad {
         &self.loading
     }
 
-    fn load_mut(&mut self) -> &mut Stretching {
+    fn load_mut(&mut self) -> &mut SlabLoad {
         &mut self.loading
     }
 
@@ -235,15 +257,21 @@ impl Body<2> for Slab {
         self.loading.start(self.forces.mesh(), state);
     }
 
-    fn compute(&mut self, state: &mut State, _time: f64, measured: bool) -> Result<(), ForceError> {
+    fn compute(&mut self, state: &mut State, time: f64, measured: bool) -> Result<(), ForceError> {
         let State { position, force, .. } = state;
         match measured {
-            true => self.forces.compute_and_measure(position, force, &mut self.measure),
-            false => self.forces.compute(position, force),
+            true => self.forces.compute_and_measure(position, force, &mut self.measure)?,
+            false => self.forces.compute(position, force)?,
         }
+        self.loading.force(state, time);
+        Ok(())
     }
 
+    /// What acts on nodes is added when the forces of all are known: only grips let them move on before.
     fn compute_and_move(&mut self, state: &mut State, clock: Clock) -> Result<bool, ForceError> {
+        if self.loading.stretching().is_none() {
+            return self.compute(state, clock.time, false).map(|()| false);
+        }
         self.next
             .compute_and_move(&mut self.forces, state, clock.time_step)
             .map(|()| true)
@@ -284,8 +312,7 @@ impl Body<2> for Slab {
     fn cut_anew(&mut self, state: &mut State) {
         let before = self.forces.domain().clone();
         let domain = &before;
-        let impulses = self.loading.impulses(domain.ranks());
-        let absorbed = self.loading.absorbed(domain.ranks());
+        let booked = self.loading.booked(domain.ranks());
         self.forces.cut_anew();
         let State {
             position: [x, y],
@@ -301,8 +328,7 @@ impl Body<2> for Slab {
         let after = self.forces.domain();
         after.take_over_from(&before, self.forces.mesh(), planes.map(Vec::as_mut_slice));
         self.next.forget_inertias();
-        self.loading
-            .belong_to(&self.forces.domain().nodes(), &impulses, &absorbed);
+        self.loading.belong_to(&self.forces.domain().nodes(), &booked);
     }
 
     fn stability_limit_of_atoms(&self, state: &State) -> f64 {

@@ -209,12 +209,12 @@ pub struct Snapshots {
     pub every: Given<Interval>,
 }
 
-/// Planes across a solid, whose mean velocity and stress the time series tells.
+/// Planes across a solid, or across a slab under a pulse, whose mean velocity and stress the time series tells.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Gauges {
     /// The axis that the planes lie across.
     pub axis: Given<Axis>,
-    /// Where, from the low face of the axis.
+    /// Where, from the low face of the axis; of a slab from its left edge.
     pub at: Given<Vec<Given<Length>>>,
 }

@@ -3,6 +3,7 @@
 //! A mistake keeps nothing else from being checked: what depends on a wrong value is left out, what does not is not.
 
 mod crack;
+mod gauges;
 mod material;
 mod noise;
 mod refine;
@@ -12,6 +13,7 @@ mod slab;
 mod solid;
 mod specimen;
 mod strangers;
+mod unstrained;
 
 use super::{
     case::Case,

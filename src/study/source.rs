@@ -29,7 +29,7 @@ macro_rules! shipped {
     };
 }
 
-pub static SHIPPED: [Shipped; 29] = [
+pub static SHIPPED: [Shipped; 30] = [
     shipped!("quickstart.yaml"),
     shipped!("speed-against-error.yaml", "speed-against-error/lammps.csv"),
     shipped!("case-1.yaml", "case-1/strains.csv"),
@@ -78,6 +78,7 @@ pub static SHIPPED: [Shipped; 29] = [
     shipped!("scaling-scaled-3d.yaml", "scaling/table-4-3.csv"),
     shipped!("quickstart-3d.yaml"),
     shipped!("wave-bar.yaml", "wave-bar/lammps.csv"),
+    shipped!("wave-slab.yaml"),
     shipped!("speed-against-error-3d.yaml", "speed-against-error-3d/lammps.csv"),
     shipped!("film-3d.yaml"),
     shipped!("film-3d-small.yaml"),

@@ -12,6 +12,7 @@ mod interrupt;
 mod kill;
 mod pages;
 mod pictures;
+mod pulses;
 mod quickstart;
 mod ranks;
 mod refined;

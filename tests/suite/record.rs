@@ -8,6 +8,7 @@ mod pieces;
 mod solids;
 
 use cgaft::analysis::series::{BondEvent, CrackFrom, Probe, Series, Setting};
+use cgaft::loading::Booked;
 use cgaft::record::frames::{FieldMesh, Frame};
 use cgaft::solver::checkpoint::Checkpoint;
 use cgaft::solver::slab::Kept;
@@ -49,8 +50,11 @@ fn checkpoint(nodes: u64) -> Checkpoint {
         probes: 12,
         snapshots: 3,
         kept: Kept {
-            grip_impulses: column(50),
-            absorbed: column(60),
+            booked: Booked {
+                impulses: column(50),
+                absorbed: column(60),
+                works: column(70),
+            },
             broken_bonds: vec![[-1, 2, 0], [i32::MAX, i32::MIN, 2]],
             parted_bonds: [[-1, 2, 0], [0, 3, 1], [i32::MAX, i32::MIN, 2]]
                 .map(parted_at(7))

@@ -7,6 +7,7 @@ mod exploding;
 mod factors;
 mod long_steps;
 mod parted;
+mod pulsed;
 mod refined;
 mod relaxed;
 

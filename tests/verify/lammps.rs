@@ -239,7 +239,7 @@ fn compare_runs((potential, text): (&str, &str), name: &str, steps_before: u64, 
 
 /// Potential and kinetic energy and the pull of the grips.
 fn differences_of_totals(slab: &case::Slab, mesh: &Mesh, state: &State, row: &[f64]) -> [f64; 3] {
-    let case::Loading::StrainRate { rate, .. } = slab.loading;
+    let rate = slab.loading.strain_rate().expect("grips pull it");
     let grip = match slab.specimen.grips {
         case::Grips::Clamped => Grip::Clamped,
         case::Grips::Sliding => Grip::Sliding,

@@ -1,5 +1,6 @@
 //! What the store holds, as the report wants it.
 
+mod pulse;
 mod solid;
 
 use std::path::{Path, PathBuf};
@@ -15,7 +16,7 @@ use crate::record::{self, CHECKPOINT_FILE, FIELDS_FILE, RecordError, SERIES_FILE
 use crate::report::{CaseResult, Failure, Film, Manifest, OtherStudy, Phase, Scaling, Specimen, Study};
 use crate::setup::{self, Estimator};
 use crate::store::{self, Attempt, State};
-use crate::study::case::{Body, Case};
+use crate::study::case::{Body, Case, Loading, Slab};
 
 /// A study with the results of all its cases, also of those that failed or are missing, and what others have of them.
 pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
@@ -43,15 +44,23 @@ pub fn gather(survey: &Survey, others: Vec<OtherStudy>) -> Study {
                 let mut result = case_result(survey, entry, true);
                 // Where this machine cannot hold the mesh its specimen is not told.
                 let case = &entry.planned.case;
-                match (estimator.specimen(case), case.solid()) {
+                match (estimator.specimen(case), &case.body) {
+                    (Ok(setup::Specimen::Slab(laid)), Body::Slab(slab)) if is_pulse(slab) => {
+                        pulse::tell(&mut result, slab, &laid);
+                    }
                     (Ok(setup::Specimen::Slab(laid)), _) => result.specimen = Some(specimen(&laid)),
-                    (Ok(setup::Specimen::Solid(laid)), Some(solid)) => solid::tell(&mut result, solid, &laid),
+                    (Ok(setup::Specimen::Solid(laid)), Body::Solid(solid)) => solid::tell(&mut result, solid, &laid),
                     _ => (),
                 }
                 result
             })
             .collect(),
     }
+}
+
+/// Whether the report shows a slab as it shows solids: no crack is followed in it.
+fn is_pulse(slab: &Slab) -> bool {
+    matches!(slab.loading, Loading::Pulse { .. })
 }
 
 fn specimen(laid: &setup::slab::estimate::Specimen) -> Specimen {
@@ -144,6 +153,7 @@ fn set_kept(result: &mut CaseResult, case: &Case, folder: &Path) {
 /// Reads what a run has left: its setting, its series and, if it took any and they are wanted, its pictures.
 fn read(result: &mut CaseResult, case: &Case, folder: &Path, with_film: bool) -> Result<(), RecordError> {
     match &case.body {
+        Body::Slab(slab) if is_pulse(slab) => pulse::read(result, folder),
         Body::Slab(_) => {
             let (setting, series, film) = read_run(folder, with_film)?;
             result.setting = Some(setting);

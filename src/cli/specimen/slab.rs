@@ -37,7 +37,10 @@ pub fn row(name: &str, specimen: &Specimen) -> Vec<String> {
         notch.map_or_else(|| "-".to_owned(), |notch| size(notch.length)),
         notch.map_or("-", |notch| end(notch.end)).to_owned(),
         digits(geometry.grip_thickness),
-        format!("{} m/s", digits(geometry.grip_speed * METRES_PER_SECOND)),
+        match geometry.grip_speed {
+            0.0 => "at rest".to_owned(),
+            speed => format!("{} m/s", digits(speed * METRES_PER_SECOND)),
+        },
         specimen
             .leftovers
             .map_or_else(|| "-".to_owned(), |leftovers| left_over(&leftovers)),

@@ -2,7 +2,8 @@
 
 use serde_json::{Value, json};
 
-use super::{length, quantity, ramp};
+use super::{length, pulse_shape, quantity, ramp, time};
+use crate::study::case::solid::Side;
 use crate::study::case::{Crack, Edge, Grips, Lattice, Loading, Mode, NotchEnd, Refine, Region, RegionShape, Specimen};
 use crate::units::Dimension;
 
@@ -60,20 +61,42 @@ pub fn notch(crack: &Crack) -> Value {
 }
 
 pub fn load(loading: &Loading) -> Value {
-    let Loading::StrainRate {
-        mode: Mode::I,
-        rate,
-        ramp: start,
-        sponge,
-        damping,
-    } = *loading;
-    let rate = quantity(rate, Dimension::Rate);
-    let mut spelled = json!({ "mode": "I", "rate": rate, "ramp": ramp(start) });
-    if let Some(width) = sponge {
-        spelled["sponge"] = length(width);
+    match *loading {
+        Loading::StrainRate {
+            mode: Mode::I,
+            rate,
+            ramp: start,
+            sponge,
+            damping,
+        } => {
+            let rate = quantity(rate, Dimension::Rate);
+            let mut spelled = json!({ "mode": "I", "rate": rate, "ramp": ramp(start) });
+            if let Some(width) = sponge {
+                spelled["sponge"] = length(width);
+            }
+            if let Some(rate) = damping {
+                spelled["damping"] = quantity(rate, Dimension::Rate);
+            }
+            json!({ "strain-rate": spelled })
+        }
+        Loading::Pulse {
+            face,
+            pressure,
+            shape,
+            duration,
+        } => json!({ "pulse": {
+            "face": match face {
+                Side::Low => "x-low",
+                Side::High => "x-high",
+            },
+            "shape": pulse_shape(shape),
+            "duration": time(duration),
+            "pressure": quantity(pressure, Dimension::Stress),
+        } }),
     }
-    if let Some(rate) = damping {
-        spelled["damping"] = quantity(rate, Dimension::Rate);
-    }
-    json!({ "strain-rate": spelled })
+}
+
+pub fn gauges(at: &[f64]) -> Value {
+    let at: Vec<Value> = at.iter().copied().map(length).collect();
+    json!({ "axis": "x", "at": at })
 }

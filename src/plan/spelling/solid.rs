@@ -2,11 +2,10 @@
 
 use serde_json::{Value, json};
 
-use super::{length, quantity, ramp, time};
+use super::{length, pulse_shape, quantity, ramp, time};
 use crate::study::case::Solid;
 use crate::study::case::solid::{
-    Axis, Depth, Face, Gauges, Held, Lattice, Loading, Notch, Pull, PulseShape, Region, RegionShape, Shape, Side,
-    Specimen,
+    Axis, Depth, Face, Gauges, Held, Lattice, Loading, Notch, Pull, Region, RegionShape, Shape, Side, Specimen,
 };
 use crate::units::Dimension;
 
@@ -153,10 +152,7 @@ impl Names {
                 shape,
                 duration,
             } => {
-                let shape = match shape {
-                    PulseShape::HalfSine => "half-sine",
-                    PulseShape::Gaussian => "gaussian",
-                };
+                let shape = pulse_shape(shape);
                 let spelled = json!({ "face": self.face(face), "shape": shape, "duration": time(duration) });
                 json!({ "pulse": with_pull(spelled, pull) })
             }

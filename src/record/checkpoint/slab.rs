@@ -3,6 +3,7 @@
 use hdf5::Group;
 
 use super::Keep;
+use crate::loading::Booked;
 use crate::record::arrays::{Packing, get, get_rows, get_scalar, new_group, put, put_scalar};
 use crate::record::bonds::{get_bonds, put_bonds};
 use crate::solver::slab::Kept;
@@ -11,11 +12,14 @@ impl Keep for Kept {
     fn put(&self, group: &Group) -> hdf5::Result<()> {
         // Taken apart by name, so that a new member cannot be forgotten here.
         let Kept {
-            grip_impulses,
+            booked: Booked {
+                impulses,
+                absorbed,
+                works,
+            },
             earlier_work,
             refined,
             outruns,
-            absorbed,
             broken_bonds,
             parted_bonds,
             joins,
@@ -26,8 +30,9 @@ impl Keep for Kept {
             left_plane,
         } = self;
         for (name, unit, numbers) in [
-            ("grip_impulses", "eV ps/nm", grip_impulses),
+            ("grip_impulses", "eV ps/nm", impulses),
             ("absorbed", "eV", absorbed),
+            ("works", "eV", works),
         ] {
             put(group, name, unit, &[numbers.len()], numbers, Packing::Plain)?;
         }
@@ -53,11 +58,14 @@ impl Keep for Kept {
 
     fn get(group: &Group) -> hdf5::Result<Self> {
         Ok(Self {
-            grip_impulses: get(group, "grip_impulses")?,
+            booked: Booked {
+                impulses: get(group, "grip_impulses")?,
+                absorbed: get(group, "absorbed")?,
+                works: get(group, "works")?,
+            },
             earlier_work: get_scalar(group, "earlier_work")?,
             refined: get(group, "refined")?,
             outruns: get_scalar(group, "outruns")?,
-            absorbed: get(group, "absorbed")?,
             broken_bonds: get_rows(group, "broken_bonds")?,
             parted_bonds: get_bonds(&group.group("parted_bonds")?)?,
             joins: get(group, "joins")?,

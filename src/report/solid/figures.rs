@@ -1,6 +1,6 @@
 //! The line charts of solids.
 
-use super::series::along;
+use super::series::{along, component};
 use super::surfaces::Surface;
 use super::{Analysed, Series};
 use crate::report::chart::{Chart, Content, Curve};
@@ -100,7 +100,7 @@ fn stress(cases: &[Analysed]) -> Chart {
         cases,
         "stress",
         "Average stress",
-        "Mean virial stress of the whole solid in the direction in which the loading pulls. Curves that lie on each other \
+        "Mean virial stress of the whole specimen, of a slab between its grips, in the direction in which the loading pulls. Curves that lie on each other \
          show that the coarser mesh is as stiff as the finer and carries the same waves.",
         "average stress (GPa)",
         curves(cases, |case, series| {
@@ -261,15 +261,14 @@ fn gauges(case: &Analysed) -> Vec<Chart> {
     let of = |kind: &str, y: &str, content: Content| Chart {
         id: format!("gauges-{kind}-{}", case.file_part()),
         title: format!("{kind} at the gauges: {}", case.name()),
-        caption: format!("Mean {kind} over planes across the solid, in the direction in which the loading pulls."),
+        caption: format!("Mean {kind} over planes across the specimen, in the direction in which the loading pulls."),
         detail: false,
         table: "gauges",
         x: "time (ps)".to_owned(),
         y: y.to_owned(),
         content,
     };
-    let speed =
-        |velocity: &[f64; 3]| (0..3).map(|axis| velocity[axis] * direction[axis]).sum::<f64>() * METRE_PER_SECOND;
+    let speed = |velocity: &[f64; 3]| component(velocity, direction) * METRE_PER_SECOND;
     vec![
         of(
             "stress",

@@ -2,7 +2,8 @@
 
 use super::Solid;
 use super::period::period;
-use super::series::Series;
+use super::series::{Gauge, Series, component};
+use crate::analysis::passage;
 
 /// Times in ps, stresses in eV/nm^3. `None` where it did not happen or cannot be told.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -21,6 +22,10 @@ pub struct Findings {
     pub period: Option<(f64, f64)>,
     /// Highest temperature of the atoms, K.
     pub temperature: Option<f64>,
+    /// Where its gauges stand, nm, by rising place, and when a pulse passed each, ps; none where no speed is expected.
+    pub passages: Vec<(f64, Option<f64>)>,
+    /// From the first of these to the last, nm/ps.
+    pub wave_speed: Option<f64>,
 }
 
 /// A probe and the stress in the direction of the pull there.
@@ -54,7 +59,14 @@ impl Findings {
         let at_start = series.broken.first().copied();
         let breaks = at_start.and_then(|start| series.broken.iter().position(|&broken| broken != start));
         let hottest = series.temperature.iter().copied().filter(|kelvin| kelvin.is_finite());
+        let passages = passages(solid, series);
+        let passed: Vec<(f64, f64)> = passages.iter().filter_map(|&(at, time)| Some((at, time?))).collect();
         Self {
+            wave_speed: passed
+                .first()
+                .zip(passed.last())
+                .and_then(|(&from, &to)| passage::speed([from, to])),
+            passages,
             peak: largest.map(moment),
             first_break: breaks.map(moment),
             broken: series.broken.last().zip(at_start).map(|(end, start)| end - start),
@@ -64,6 +76,25 @@ impl Findings {
             temperature: hottest.max_by(f64::total_cmp),
         }
     }
+}
+
+/// When a pulse whose speed is known from the crystal passed the gauges.
+fn passages(solid: &Solid, series: &Series) -> Vec<(f64, Option<f64>)> {
+    if solid.specimen.wave_speed.is_none() {
+        return Vec::new();
+    }
+    let signal = |gauge: &Gauge| -> Vec<f64> {
+        let velocities = gauge.velocity.iter();
+        velocities
+            .map(|velocity| component(velocity, solid.specimen.direction))
+            .collect()
+    };
+    let gauges = series.gauges.iter();
+    let mut passages: Vec<_> = gauges
+        .map(|gauge| (gauge.at, passage::passage(&series.time, &signal(gauge))))
+        .collect();
+    passages.sort_by(|one, other| one.0.total_cmp(&other.0));
+    passages
 }
 
 fn modulus(series: &Series, pull: &[f64], breaks: Option<usize>) -> Option<f64> {

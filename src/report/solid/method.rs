@@ -4,8 +4,44 @@ use super::Analysed;
 use crate::report::numbers::significant;
 use crate::report::units::PERCENT;
 
+/// Notes that say something of a slab under a pulse, too.
+const OF_PULSES: [&str; 3] = ["Bonds lost", "Distance of curves", "Energy missing"];
+
 pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
-    let mut notes = vec![
+    let is_pulse = |case: &Analysed| case.solid.specimen.wave_speed.is_some();
+    let mut notes = of_solids();
+    if cases.iter().all(is_pulse) {
+        notes.retain(|(name, _)| OF_PULSES.contains(name));
+    }
+    if cases.iter().any(is_pulse) {
+        notes.extend(of_pulses());
+    }
+    notes.extend(cases.iter().map(specimen));
+    notes
+}
+
+fn of_pulses() -> Vec<(&'static str, String)> {
+    vec![
+        (
+            "Stress and gauges of a slab",
+            "Average stress: virial of all bonds between the grips over the area of their atoms and the thickness, along x. A gauge is \
+             a line across the slab, in each row of atoms between the two that are next to it; its velocity is the mean on the line, \
+             its stress that of the elements whose atoms these are."
+                .to_owned(),
+        ),
+        (
+            "Arrival",
+            "When the middle of that part of the pulse passes a gauge where the velocity along x is above half of its greatest there, \
+             for the first time: that a pulse which disperses has another shape at the next gauge hardly moves it. A gauge so near to \
+             the far face that the reflection meets the pulse has no true time. The speed of long waves is c_L = √(C11 / ρ) of the \
+             crystal at rest; with grips that slide, the wave is plane."
+                .to_owned(),
+        ),
+    ]
+}
+
+fn of_solids() -> Vec<(&'static str, String)> {
+    vec![
         (
             "Average stress",
             "Virial of all bonds over the volume of all atoms at rest, in the direction in which the loading pulls.".to_owned(),
@@ -82,39 +118,39 @@ pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
              cutoff; the greatest over the greatest work."
                 .to_owned(),
         ),
-    ];
-    for case in cases {
-        let specimen = &case.solid.specimen;
-        let edges: Vec<String> = specimen
-            .edges
-            .iter()
-            .map(|(name, length)| format!("{name} {} nm", significant(*length, 4)))
-            .collect();
-        let leftover = specimen.leftover_share.filter(|&share| share > 0.0);
-        let leftover = leftover.map_or(String::new(), |share| {
-            format!(
-                "; {} % of the atoms in smaller elements than asked for",
-                significant(PERCENT * share, 2)
-            )
-        });
-        let intensity = specimen.intensity.as_ref().map_or(String::new(), |told| {
-            format!(
-                ", with a K at rest by F σ √(πa), the handbook factor of an edge crack in a long strip, in MPa √m and over that of \
-                 Griffith: {told}"
-            )
-        });
-        notes.push((
-            "Specimen",
-            format!(
-                "{}: {}; {}; notch: {}{intensity}; held: {}; loading: {}{leftover}.",
-                case.name(),
-                edges.join(", "),
-                specimen.kinds,
-                specimen.notch,
-                specimen.held,
-                specimen.loading,
-            ),
-        ));
-    }
-    notes
+    ]
+}
+
+fn specimen(case: &Analysed) -> (&'static str, String) {
+    let specimen = &case.solid.specimen;
+    let edges: Vec<String> = specimen
+        .edges
+        .iter()
+        .map(|(name, length)| format!("{name} {} nm", significant(*length, 4)))
+        .collect();
+    let leftover = specimen.leftover_share.filter(|&share| share > 0.0);
+    let leftover = leftover.map_or(String::new(), |share| {
+        format!(
+            "; {} % of the atoms in smaller elements than asked for",
+            significant(PERCENT * share, 2)
+        )
+    });
+    let intensity = specimen.intensity.as_ref().map_or(String::new(), |told| {
+        format!(
+            ", with a K at rest by F σ √(πa), the handbook factor of an edge crack in a long strip, in MPa √m and over that of \
+             Griffith: {told}"
+        )
+    });
+    (
+        "Specimen",
+        format!(
+            "{}: {}; {}; notch: {}{intensity}; held: {}; loading: {}{leftover}.",
+            case.name(),
+            edges.join(", "),
+            specimen.kinds,
+            specimen.notch,
+            specimen.held,
+            specimen.loading,
+        ),
+    )
 }

@@ -100,7 +100,8 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "bonds lost at the end", |case| case.findings.broken.map(whole)),
         row(cases, "borders of elements open at the end", |case| {
             let open = case.series()?.open_interfaces.last().copied()?;
-            (case.solid.specimen.elements > case.solid.specimen.atoms_alone).then(|| count(open as u64))
+            (open.is_finite() && case.solid.specimen.elements > case.solid.specimen.atoms_alone)
+                .then(|| count(open as u64))
         }),
         row(cases, "crack at the end (nm²)", |case| {
             Some(three(case.surfaces.last()?.crack())).filter(|_| case.has_parted())
@@ -153,6 +154,14 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "highest temperature of atoms (K)", |case| {
             case.findings.temperature.map(three)
         }),
+        row(cases, "wave speed from the first to the last gauge (m/s)", |case| {
+            Some(significant(case.findings.wave_speed? * METRE_PER_SECOND, 5))
+        }),
+        row(cases, "the same, over that of long waves", |case| {
+            Some(signed_percent(
+                case.findings.wave_speed? / case.solid.specimen.wave_speed? - 1.0,
+            ))
+        }),
         row(cases, "ended because", |case| case.result.manifest.end_reason.clone()),
     ]
 }
@@ -177,6 +186,7 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
             Some(case.findings.first_break?.time)
         }),
         against("period", &|case| Some(case.findings.period?.0)),
+        against("wave speed", &|case| case.findings.wave_speed),
         row(
             cases,
             "curve of the stress, over its greatest",

@@ -39,10 +39,20 @@ pub struct Gauge {
     pub stress: Vec<[f64; 6]>,
 }
 
-/// Stress in a direction of length 1.
+/// Stress in a direction of length 1; components that it has no part in need not be numbers.
 pub fn along(stress: &[f64; 6], [x, y, z]: [f64; 3]) -> f64 {
-    let [xx, yy, zz, yz, xz, xy] = *stress;
-    xx * x * x + yy * y * y + zz * z * z + 2.0 * (yz * y * z + xz * x * z + xy * x * y)
+    let weights = [x * x, y * y, z * z, 2.0 * (y * z), 2.0 * (x * z), 2.0 * (x * y)];
+    weighted(stress, &weights)
+}
+
+/// Component of a vector in a direction of length 1; the same holds of its components.
+pub fn component(vector: &[f64; 3], direction: [f64; 3]) -> f64 {
+    weighted(vector, &direction)
+}
+
+fn weighted(parts: &[f64], weights: &[f64]) -> f64 {
+    let both = parts.iter().zip(weights).filter(|(_, weight)| **weight != 0.0);
+    both.map(|(part, weight)| part * weight).sum()
 }
 
 impl Series {

@@ -79,4 +79,7 @@ pub struct Specimen {
     pub leftover_share: Option<f64>,
     /// Equal for cases that are one computation, however they were asked for.
     pub computation: u64,
+    /// Speed in the crystal of the long plane waves that its gauges wait for, nm/ps, where there is a closed form: of a slab
+    /// under a pulse.
+    pub wave_speed: Option<f64>,
 }

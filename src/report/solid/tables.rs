@@ -1,5 +1,6 @@
 //! The tables of solids.
 
+mod arrivals;
 mod surfaces;
 
 use polars::prelude::Column;
@@ -29,7 +30,12 @@ pub fn all(
         ("gauges", gauges(cases)),
         ("cost", cost(cases)),
     ];
-    let made = own.into_iter().map(|(name, columns)| Table::new(name, columns));
+    let arrivals = arrivals::rows(cases);
+    let arrivals = (!arrivals.is_empty()).then(|| ("arrivals", arrivals::columns(arrivals)));
+    let made = own
+        .into_iter()
+        .chain(arrivals)
+        .map(|(name, columns)| Table::new(name, columns));
     let mut tables = made.collect::<Result<Vec<_>, _>>()?;
     if let Some(scaling) = scaling {
         tables.push(Table::new(SCALING, scaling::columns(scaling))?);
@@ -76,6 +82,12 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
         }),
         rows.number("bar_period_at_rest_ps", |case| {
             Some(case.solid.specimen.bar?.period(case.findings.modulus_at_rest?))
+        }),
+        rows.number("wave_speed_m_per_s", |case| {
+            case.findings.wave_speed.map(|speed| speed * METRE_PER_SECOND)
+        }),
+        rows.number("wave_speed_of_crystal_m_per_s", |case| {
+            case.solid.specimen.wave_speed.map(|speed| speed * METRE_PER_SECOND)
         }),
     ]
 }

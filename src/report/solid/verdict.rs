@@ -2,8 +2,8 @@
 
 use super::overview::curve_distance;
 use super::{Analysed, reference};
-use crate::report::numbers::{capital, significant};
-use crate::report::units::{GIGAPASCAL, PERCENT};
+use crate::report::numbers::{capital, signed_percent, significant};
+use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND, PERCENT};
 use crate::units::amounts::{bytes, duration};
 
 /// More cases than this are left to the table.
@@ -44,6 +44,13 @@ fn answer(case: &Analysed) -> Option<String> {
             "at rest a Young's modulus of {} GPa, with which a thin bar has a period of {} ps",
             significant(modulus * GIGAPASCAL, 4),
             significant(bar.period(modulus), 4)
+        ));
+    }
+    if let Some((speed, expected)) = found.wave_speed.zip(case.solid.specimen.wave_speed) {
+        parts.push(format!(
+            "the pulse goes from the first to the last gauge at {} m/s, {} against long waves in the crystal",
+            significant(speed * METRE_PER_SECOND, 4),
+            signed_percent(speed / expected - 1.0)
         ));
     }
     if let Some(start) = found.first_break {

@@ -24,7 +24,7 @@ impl Recorded<2> for Slab {
     fn no_rows(&self) -> Series {
         Series {
             profile_x: self.profile_x().to_vec(),
-            gauge_places: self.gauge_places().to_vec(),
+            gauge_places: self.gauge_places(),
             ..Series::default()
         }
     }

@@ -114,6 +114,11 @@ impl Census {
         self.sum(|size| if size == 1 { 1.0 } else { 3.0 })
     }
 
+    /// Elements that are single atoms.
+    pub fn atoms_alone(&self) -> u64 {
+        self.sum(|size| if size == 1 { 1.0 } else { 0.0 })
+    }
+
     /// Bytes that so many ranks of a solver take together at most, while a crack runs and a picture is written.
     pub fn memory(&self, ranks: u32) -> u64 {
         let kept = self.sum(|size| if size == 1 { BYTES_AN_ATOM } else { BYTES_A_TRIANGLE });

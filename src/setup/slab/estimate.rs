@@ -3,10 +3,10 @@
 use super::census::{Census, MESHED};
 use super::geometry::{self, Geometry, Notch};
 use super::leftovers::Leftovers;
-use super::{material, mesh_plan, refined, settings};
+use super::{loading, material, mesh_plan, refined, settings};
 use crate::forces::Summation;
 use crate::lattice::triangular;
-use crate::loading::{Grip, Stretching, longest_step};
+use crate::loading::{Grip, Stretching};
 use crate::material::Material;
 use crate::mesh::sites::Layout;
 use crate::mesh::{Mesh, Plan};
@@ -26,6 +26,11 @@ pub struct Specimen {
     pub absent: Option<i32>,
     /// Equal for cases that are one computation, however they were asked for.
     pub computation: u64,
+    pub nodes: u64,
+    pub elements: u64,
+    /// Sites, and those of them that are elements of their own.
+    pub atoms: u64,
+    pub atoms_alone: u64,
 }
 
 /// Seconds on one core of a 2.6 GHz EPYC: to start and to publish a run, of a probe whatever the specimen (the fields around
@@ -67,9 +72,7 @@ impl Estimator {
         let material = self.material(slab)?;
         let plan = mesh_plan(slab, &case.run.until, &material)?;
         refuse_what_does_not_fit(&plan, ranks(case))?;
-        let case::Loading::StrainRate { rate, ramp, .. } = slab.loading;
-        let is_ramped = ramp == case::Ramp::InitialVelocity;
-        let longest = longest_step(rate, plan.height_between_grips(), is_ramped, plan.spacing);
+        let longest = loading::longest_step_of(slab, &plan);
         let (specimen, census) = self.lay_out(case, slab, &plan);
         refuse_a_notch_beyond_the_end(case, &specimen.geometry)?;
         // What becomes atoms on the way does so evenly, and is there in full in the end.
@@ -114,6 +117,10 @@ impl Estimator {
             leftovers: census.leftovers,
             absent: census.leftovers.and_then(|_| census.absent(plan)),
             computation: geometry::computation(case, slab, plan, census.fingerprint, notch.as_ref()),
+            nodes: census.node_count(),
+            elements: census.element_count(),
+            atoms: census.sites,
+            atoms_alone: census.atoms_alone(),
         };
         (specimen, census)
     }
@@ -203,14 +210,13 @@ fn estimate_with(
     [mean, census]: &[Census; 2],
     [stability_limit, longest]: [f64; 2],
 ) -> Result<Expected<Specimen>, SetupError> {
-    let case::Loading::StrainRate { rate, .. } = slab.loading;
+    let rate = slab.loading.strain_rate();
     let settings = settings(case, slab);
     let time_step = settings.time_step.choose(stability_limit, longest)?;
     let start = case.run.relax.unwrap_or(0.0);
-    let steps = settings
-        .until
-        .steps(0, 0.0, time_step, |strain| (strain - start) / rate);
-    let time = time_of_run(case, Some(rate), steps, time_step)?;
+    let time_of = |strain: f64| rate.map_or(f64::INFINITY, |rate| (strain - start) / rate);
+    let steps = settings.until.steps(0, 0.0, time_step, time_of);
+    let time = time_of_run(case, rate, steps, time_step)?;
     // The constants are those of nearest neighbours, three bonds a site; half of what an atom costs is not bonds.
     let reach = LOOKED_AT * material.interaction.cutoff() / material.spacing;
     let bonds = triangular::half_vectors_within(reach).len() as f64 / 3.0;
@@ -238,8 +244,7 @@ fn estimate_with(
 /// while it is replaced. A probe has some forty doubles and five for every bin of the profile, none narrower than two
 /// spacings, and stands there twice while the series is put together.
 fn disk(case: &Case, slab: &Slab, census: &Census, spacing: f64, [time, steps]: [f64; 2]) -> u64 {
-    let case::Loading::StrainRate { rate, .. } = slab.loading;
-    let every = between_pictures(case, Some(rate)).unwrap_or(f64::INFINITY);
+    let every = between_pictures(case, slab.loading.strain_rate()).unwrap_or(f64::INFINITY);
     let pictures = (time / every).floor().min(steps) + 2.0;
     let [nodes, elements] = [census.node_count() as f64, census.element_count() as f64];
     let series =

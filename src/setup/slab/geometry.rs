@@ -5,7 +5,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use crate::lattice::triangular;
 use crate::mesh::cut::NotchEnd;
 use crate::mesh::{Mesh, Plan};
-use crate::study::case::{self, Body, Case, Slab};
+use crate::study::case::{Body, Case, Slab};
 
 /// A length as asked for and as it is, nm.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -57,14 +57,13 @@ impl Geometry {
         let edge = grip - 0.5 * row;
         let size = |asked: f64, actual: f64| Size { asked, actual };
         let height = size(slab.specimen.width - 2.0 * edge, width - 2.0 * edge);
-        let case::Loading::StrainRate { rate, .. } = slab.loading;
         Self {
             length: size(slab.specimen.length, layout.length() * plan.spacing),
             width: size(slab.specimen.width, width),
             height,
             notch,
             grip_thickness: grip,
-            grip_speed: 0.5 * rate * height.actual,
+            grip_speed: 0.5 * slab.loading.strain_rate().unwrap_or(0.0) * height.actual,
         }
     }
 

@@ -4,21 +4,19 @@ use super::Slab;
 use super::crack::Crack;
 use crate::analysis::series::BondEvent;
 use crate::lattice::triangular;
-use crate::loading::Load;
+use crate::loading::Booked;
 
-/// What the grips have done, and what has been seen of the crack.
+/// What the load has done, and what has been seen of the crack.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Kept {
-    /// Impulse with which every node in the grips was pulled so far, the lower grip first, eV ps/nm.
-    pub grip_impulses: Vec<f64>,
+    /// Impulses of grips that part, what sponges have taken and the works of actions so far.
+    pub booked: Booked,
     /// Work done before the mesh last changed, eV; what follows counts from there.
     pub earlier_work: f64,
     /// The triangles of the mesh of the start that have become atoms, ascending.
     pub refined: Vec<u32>,
     /// How many interfaces between triangles had opened when it was looked at them.
     pub outruns: u64,
-    /// Kinetic energy that the sponges have taken from each of their elements so far, eV.
-    pub absorbed: Vec<f64>,
     /// Bonds broken at the last probe, ascending (column, row, direction).
     pub broken_bonds: Vec<[i32; 3]>,
     /// Bonds that the crack had parted by then, also where its faces touch, with the probes at which they broke, ascending
@@ -43,14 +41,13 @@ impl Slab {
         let probes = &self.probes;
         let crack = probes.crack.as_ref();
         Kept {
-            grip_impulses: self.loading.impulses(ranks),
+            booked: self.loading.booked(ranks),
             earlier_work: self.loading.earlier_work(),
             refined: self
                 .refinement
                 .as_ref()
                 .map_or_else(Vec::new, |refinement| refinement.refined().to_vec()),
             outruns: self.outruns(),
-            absorbed: self.loading.absorbed(ranks),
             broken_bonds: probes.broken.clone(),
             parted_bonds: crack.map_or_else(Vec::new, Crack::parted),
             joins: crack.map_or_else(Vec::new, |crack| crack.joins().to_vec()),
@@ -65,7 +62,7 @@ impl Slab {
     pub(super) fn go_on_from(&mut self, open_interfaces: &[u32], kept: &Kept) {
         self.forces.restore_open_interfaces(open_interfaces);
         let nodes = self.forces.domain().nodes();
-        self.loading.belong_to(&nodes, &kept.grip_impulses, &kept.absorbed);
+        self.loading.belong_to(&nodes, &kept.booked);
         self.loading.restore_earlier_work(kept.earlier_work);
         if let Some(refinement) = &mut self.refinement {
             refinement.restore_outruns(kept.outruns);
@@ -84,11 +81,15 @@ impl Slab {
     }
 
     pub(super) fn refuse_foreign(&self, open_interfaces: &[u32], kept: &Kept) -> Result<(), &'static str> {
-        if kept.grip_impulses.len() != self.loading.held().len() {
+        let (own, booked) = (self.loading.nothing_booked(), &kept.booked);
+        if booked.impulses.len() != own.impulses.len() {
             return Err("its grips hold another number of nodes");
         }
-        if kept.absorbed.len() != self.loading.sponge_size() {
+        if booked.absorbed.len() != own.absorbed.len() {
             return Err("its sponges have another number of elements");
+        }
+        if booked.works.len() != own.works.len() {
+            return Err("its loading acts on another number of nodes");
         }
         let interfaces = self.forces.interface_count();
         if open_interfaces.iter().any(|&number| number as usize >= interfaces) {

@@ -68,12 +68,14 @@ impl Instruments<2> for Slab {
         is_first.then(|| {
             let probe = self.probe_row(state, totals, stress, rings);
             let (mesh, material) = (self.forces.mesh(), self.forces.material());
-            let probes = &self.probes;
+            let (probes, setting) = (&self.probes, &self.setting);
+            let mut gauges = probes.gauges.read(mesh, state, &self.measure, setting);
+            gauges.extend(probes.planes.read(state, &self.measure, setting));
             Reading {
                 probe,
-                profile: probes.profile.stress(&self.measure, &self.setting),
+                profile: probes.profile.stress(&self.measure, setting),
                 traction: probes.traction.read(material, state),
-                gauges: probes.gauges.read(mesh, state, &self.measure, &self.setting),
+                gauges,
                 bonds,
             }
         })

@@ -196,7 +196,7 @@ impl Slab {
         };
         *state = next;
         let ranks = self.forces.domain().ranks();
-        self.loading = self.loading.on(&mesh, ranks);
+        self.loading.go_over_to(&mesh, ranks);
         self.loading.hold(state);
         self.setting.nodes = mesh.node_count() as u64;
         self.setting.elements = mesh.elements.len() as u64;
@@ -215,11 +215,9 @@ impl Slab {
         self.probes.crack = before.crack;
         self.probes.watch = before.watch;
         self.forces.go_over_to(mesh);
-        let held = self.loading.held();
-        let nothing = [vec![0.0; held.len()], vec![0.0; self.loading.sponge_size()]];
-        self.forces.look_at(held.into_iter());
-        self.loading
-            .belong_to(&self.forces.domain().nodes(), &nothing[0], &nothing[1]);
+        self.forces.look_at(self.loading.held().into_iter());
+        let nothing = self.loading.nothing_booked();
+        self.loading.belong_to(&self.forces.domain().nodes(), &nothing);
         self.measure = Measure::default();
         self.next = super::Next::default();
     }

@@ -2,13 +2,13 @@
 
 use super::probe;
 use crate::analysis::series::{CrackFrom, Setting};
-use crate::loading::Stretching;
+use crate::loading::SlabLoad;
 use crate::material::{Elasticity, Material, WaveSpeeds};
 use crate::mesh::Mesh;
 use crate::mesh::cut::Side;
 
 /// Gathers what the analysis must know.
-pub fn setting(mesh: &Mesh, material: &Material, loading: &Stretching, thickness: f64) -> Setting {
+pub fn setting(mesh: &Mesh, material: &Material, loading: &SlabLoad, thickness: f64) -> Setting {
     let elasticity = Elasticity::of(material);
     let speeds = WaveSpeeds::of(material);
     let left = mesh.sites.left();
@@ -34,7 +34,7 @@ pub fn setting(mesh: &Mesh, material: &Material, loading: &Stretching, thickness
         crack_row: mesh.cut.map(|cut| cut.row),
         crack_from,
         crack_length: measured * mesh.spacing,
-        strain_rate: loading.rate,
+        strain_rate: loading.strain_rate(),
         thickness,
         longitudinal_speed: speeds.longitudinal,
         transverse_speed: speeds.transverse,

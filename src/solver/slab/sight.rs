@@ -6,7 +6,7 @@ use super::j_integral::Rings;
 use super::probe::ProfileLine;
 use super::traction::Traction;
 use crate::domain::{Halo, Of};
-use crate::loading::{Load, Stretching};
+use crate::loading::{Load, SlabLoad};
 use crate::mesh::Mesh;
 use crate::state::State;
 
@@ -15,7 +15,7 @@ use crate::state::State;
 pub struct Sight(Vec<u32>);
 
 impl Sight {
-    pub fn new(mesh: &Mesh, loading: &Stretching, profile: &ProfileLine, traction: &Traction, gauges: &Gauges) -> Self {
+    pub fn new(mesh: &Mesh, loading: &SlabLoad, profile: &ProfileLine, traction: &Traction, gauges: &Gauges) -> Self {
         let nodes = traction.nodes().chain(loading.held());
         let of_nodes = nodes.map(|node| mesh.element_of_node(node as usize) as u32);
         let elements = profile.elements().chain(gauges.elements());
@@ -23,6 +23,12 @@ impl Sight {
         seen.sort_unstable();
         seen.dedup();
         Self(seen)
+    }
+
+    pub fn add(&mut self, elements: impl Iterator<Item = u32>) {
+        self.0.extend(elements);
+        self.0.sort_unstable();
+        self.0.dedup();
     }
 }
 

@@ -160,7 +160,7 @@ mod tests {
     /// Stress and traction of an evenly stretched specimen in the bins in its middle, where no side is felt.
     fn stretched(mesh: Mesh, material: Material) -> Vec<([f64; 3], [f64; 2])> {
         let loading = crate::loading::Stretching::new(&mesh, 1e-3, crate::loading::Grip::Clamped, false);
-        let setting = setting(&mesh, &material, &loading, 1.0);
+        let setting = setting(&mesh, &material, &loading.into(), 1.0);
         let mut state = State::at_rest(mesh.node_positions(), mesh.lumped_masses());
         state.position[1].iter_mut().for_each(|y| *y *= 1.0 + STRAIN);
         let profile = ProfileLine::new(&mesh, &setting, setting.element_at_crack);

@@ -1,7 +1,8 @@
-//! A slab: a sheet of the triangular lattice with a crack, pulled by its grips.
+//! A slab: a sheet of the triangular lattice, pulled by its grips or pushed at a face.
 
 use serde::Serialize;
 
+use super::solid::{PulseShape, Side};
 use super::{Material, Ramp};
 
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -11,6 +12,9 @@ pub struct Slab {
     pub resolution: Resolution,
     pub crack: Option<Crack>,
     pub loading: Loading,
+    /// Where lines across the slab stand whose mean velocity and stress the time series holds, nm from the left edge.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub gauges: Vec<f64>,
 }
 
 /// Atoms in a sheet.
@@ -141,6 +145,26 @@ pub enum Loading {
         #[serde(skip_serializing_if = "Option::is_none")]
         damping: Option<f64>,
     },
+    /// A pressure on a face that comes and goes, between grips at rest.
+    Pulse {
+        /// Which of the two across x: the low one is the left.
+        face: Side,
+        /// At its greatest, into the slab, eV/nm^3.
+        pressure: f64,
+        shape: PulseShape,
+        /// ps
+        duration: f64,
+    },
+}
+
+impl Loading {
+    /// Nominal strain rate, 1/ps; `None` where nothing strains the slab evenly.
+    pub fn strain_rate(&self) -> Option<f64> {
+        match *self {
+            Self::StrainRate { rate, .. } => Some(rate),
+            Self::Pulse { .. } => None,
+        }
+    }
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]

@@ -20,7 +20,7 @@ pub enum Loading {
     Traction(Traction),
     /// Of a solid: opposite forces on two faces, offset in the thickness.
     OpposedTractions(OpposedTractions),
-    /// Of a solid: a force on a face that comes and goes.
+    /// Of a solid, or of a slab without a crack: a force on a face that comes and goes.
     Pulse(Pulse),
     /// Of a solid: a rigid ball flies against it.
     Impact(Impact),
@@ -108,12 +108,13 @@ pub struct OpposedTractions {
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields, default)]
 pub struct Pulse {
+    /// Of a slab `x-low`, the left one, or `x-high`.
     pub face: Given<Face>,
     pub shape: Given<PulseShape>,
     pub duration: Given<Time>,
-    /// Greatest force per area, [x, y, z]; this or a pressure.
+    /// Of a solid: greatest force per area, [x, y, z]; this or a pressure.
     pub stress: Given<[Given<Stress>; 3]>,
-    /// Greatest force per area straight into the body; this or a stress.
+    /// Greatest force per area straight into the body; in a solid this or a stress.
     pub pressure: Given<Stress>,
 }
 

@@ -52,7 +52,7 @@ pub struct Orientation {
 pub enum Grips {
     /// The grips hold x too.
     Clamped,
-    /// The grips leave x free.
+    /// The grips leave x free, so that a plane wave runs along x unhindered.
     Sliding,
 }
 
@@ -138,7 +138,7 @@ pub struct Held {
     pub depth: Given<Length>,
 }
 
-/// An axis of a solid: a1, a2, a3 where it is made of blocks, x, y, z where it is a box.
+/// An axis of a solid: a1, a2, a3 where it is made of blocks, x, y, z where it is a box; x of a slab.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Axis {
@@ -150,7 +150,7 @@ pub enum Axis {
     Z,
 }
 
-/// A face of a solid: the axis that leads through it, and on which side.
+/// A face: the axis that leads through it, and on which side. A slab has `x-low` and `x-high` between its grips.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "kebab-case")]
 pub enum Face {

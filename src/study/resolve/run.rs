@@ -1,15 +1,15 @@
-//! Loading, when to stop, time step, what to observe, and how the case is carried out.
+//! When to stop, time step, what to observe, and how the case is carried out.
 
 use super::{At, Check, nanometres, specimen::SpecimenAt};
 use crate::study::{
     case::{
-        Crack, Edge, Execution, Loading, MOST_RANKS, MOST_THREADS, MassMatrix, Mode, Probes, Ramp, Run,
-        SnapshotInterval, Snapshots, Summation, TimeStep, Until,
+        Crack, Edge, Execution, MOST_RANKS, MOST_THREADS, MassMatrix, Probes, Run, SnapshotInterval, Snapshots,
+        Summation, TimeStep, Until,
     },
     defaults,
     file::{self, Interval, Observe},
     finding::{Finding, Place},
-    quantity::{Fraction, Length, Time},
+    quantity::{Fraction, Time},
     reader::Given,
 };
 use crate::units::{self, Dimension};
@@ -48,50 +48,6 @@ impl CrackStops {
 }
 
 impl Check<'_> {
-    pub fn loading(&self, given: &Given<file::Loading>, case: Place, specimen: &SpecimenAt) -> Option<Loading> {
-        let (loading, place) = self.need(given, case, "loading", "{strain-rate: {mode: I, rate: 4.6e6 /s}}")?;
-        // Another is refused where what a slab has no use for is.
-        let file::Loading::StrainRate(values) = loading else {
-            return None;
-        };
-        let mode = match &values.mode {
-            Given::Absent => Some(defaults::MODE),
-            Given::Wrong(_) => None,
-            Given::Right(file::Mode::I, _) => Some(Mode::I),
-        };
-        let ramp = match &values.ramp {
-            Given::Absent => Some(defaults::RAMP),
-            Given::Wrong(_) => None,
-            Given::Right(file::Ramp::InitialVelocity, _) => Some(Ramp::InitialVelocity),
-            Given::Right(file::Ramp::AtRest, _) => Some(Ramp::AtRest),
-        };
-        let sponge = self.sponge(&values.sponge, specimen);
-        let damping = self.size_if_given(&values.damping, "strain-rate.damping");
-        let (rate, _) = self.size(&values.rate, place, "strain-rate.rate")?;
-        Some(Loading::StrainRate {
-            mode: mode?,
-            rate,
-            ramp: ramp?,
-            sponge: sponge?,
-            damping: damping?.map(|(damping, _)| damping),
-        })
-    }
-
-    /// The outer `None` is a mistake.
-    fn sponge(&self, given: &Given<Length>, specimen: &SpecimenAt) -> Option<Option<f64>> {
-        let sponge = self.size_if_given(given, "strain-rate.sponge")?;
-        if let (Some((sponge, place)), Some((width, given))) = (sponge, specimen.width)
-            && sponge >= 0.5 * width
-        {
-            let [sponge, width] = [sponge, width].map(nanometres);
-            let message = format!("two sponges of {sponge} leave nothing of a specimen of {width} for a crack");
-            let help = "make the sponges thinner or the specimen wider";
-            self.add(Finding::at(place, message).with(given, "the specimen").help(help));
-            return None;
-        }
-        Some(sponge.map(|(width, _)| width))
-    }
-
     /// The run, and its stop conditions, which may be known although the whole is not.
     pub fn run(&self, given: &Given<file::Run>, case: Place) -> (Option<Run>, Option<CrackStops>) {
         let Some((values, place)) = self.section(given, case) else {

@@ -1,4 +1,7 @@
-//! A slab: material, specimen, crack and loading together.
+//! A slab: material, specimen, crack, loading and gauges together.
+
+mod loading;
+mod pulse;
 
 use super::{Check, Table, tables};
 use crate::study::{
@@ -34,6 +37,11 @@ impl Check<'_> {
             self.observes_no_crack(&case.observe);
             tables.retain(|table| !matches!(table, Table::Crack | Table::WaveArrival));
         }
+        if pulse::is_pulse(case) {
+            self.refuse_what_a_pulse_has_not(case);
+            tables = vec![Table::AverageStress];
+        }
+        let gauges = self.slab_gauges(case, &specimen);
         let slab = || {
             Some(Slab {
                 material: material?,
@@ -41,6 +49,7 @@ impl Check<'_> {
                 resolution: resolution?,
                 crack: crack?.map(|(crack, _)| crack),
                 loading: loading?,
+                gauges: gauges?,
             })
         };
         (slab().map(Body::Slab), run, tables)

@@ -6,7 +6,7 @@ mod notch;
 mod resolution;
 mod specimen;
 
-use super::{At, Check, Table};
+use super::{Check, Table};
 /// The types of a resolved solid.
 use crate::study::case::solid as case;
 use crate::study::{
@@ -16,9 +16,6 @@ use crate::study::{
     reader::Given,
 };
 use specimen::Laid;
-
-/// More gauges than this hide what they show.
-const MOST_GAUGES: usize = 100;
 
 impl Check<'_> {
     /// The solid, its run, and the tables that its report shows.
@@ -38,7 +35,9 @@ impl Check<'_> {
         self.refuse_what_a_solid_has_not(case, stops);
         if let (Some(loading), Some(held)) = (&loading, &held) {
             self.moves_no_held_face(loading, held.as_ref());
-            self.strains(case, &loading.0);
+            if !matches!(loading.0, case::Loading::Velocity { .. }) {
+                self.refuse_strains(case, "speak of a time, such as `200 ps`, or load it with a `velocity`");
+            }
         }
         self.rule_of_patches(case);
         let gauges = self.gauges(&case.observe, &laid);
@@ -58,69 +57,12 @@ impl Check<'_> {
 
     /// Planes of which the series tells; the outer `None` is a mistake.
     fn gauges(&self, observe: &Given<Vec<Given<Observe>>>, laid: &Laid) -> Option<Option<Gauges>> {
-        let mut asked = observe.right().into_iter().flatten().filter_map(|item| match item {
-            Given::Right(Observe::Gauges(gauges), place) => Some((gauges, *place)),
-            _ => None,
-        });
-        let Some((gauges, place)) = asked.next() else {
+        let Some((gauges, place)) = self.gauges_asked(observe)? else {
             return Some(None);
         };
-        if let Some((_, second)) = asked.next() {
-            let finding = Finding::at(second, "gauges are asked for twice").with(place, "here first");
-            self.add(finding.help("keep one of the two, with all places in its `at`"));
-            return None;
-        }
         let (axis, _) = self.axis(&gauges.axis, place, "gauges.axis", laid)?;
-        let (at, list) = self.need(&gauges.at, place, "gauges.at", "[10 nm, 20 nm]")?;
-        if at.is_empty() || at.len() > MOST_GAUGES {
-            let message = format!("there are from 1 to {MOST_GAUGES} gauges, and here are {}", at.len());
-            self.add(Finding::at(list, message).help("write for example `at: [10 nm, 20 nm]`"));
-            return None;
-        }
-        let mut planes = Vec::new();
-        for given in &at {
-            let Given::Right(plane, place) = given else { return None };
-            planes.push(self.inside(axis, (plane.value, *place), laid)?);
-        }
-        Some(Some(Gauges { axis, at: planes }))
-    }
-
-    /// A place along an axis that is within the specimen.
-    fn inside(&self, axis: case::Axis, (at, place): At<f64>, laid: &Laid) -> Option<f64> {
-        let thickness = laid.thickness(axis);
-        if at > 0.0 && thickness.is_none_or(|thickness| at < thickness) {
-            return Some(at);
-        }
-        let message = match thickness {
-            Some(thickness) => format!(
-                "this is not inside: from face to face the specimen is {} thick here",
-                super::about(thickness)
-            ),
-            None => "this is not inside: it is measured from the low face of its axis".to_owned(),
-        };
-        self.add(Finding::at(place, message).help("write a length from the low face that ends before the high one"));
-        None
-    }
-
-    /// What speaks of a strain needs a loading that makes one.
-    fn strains(&self, case: &CaseFile, loading: &case::Loading) {
-        if matches!(loading, case::Loading::Velocity { .. }) {
-            return;
-        }
-        const HELP: &str = "speak of a time, such as `200 ps`, or load it with a `velocity`";
-        let until = case.run.right().and_then(|run| run.until.right());
-        if let Some(place) = until.and_then(|until| until.strain.place()) {
-            let message = "this loading makes no strain of its own, at which the run could end";
-            self.add(Finding::at(place, message).help(HELP));
-        }
-        for item in case.observe.right().into_iter().flatten() {
-            if let Given::Right(Observe::Snapshots(snapshots), _) = item
-                && let Given::Right(file::Interval::Strain(_), place) = snapshots.every
-            {
-                let message = "this loading makes no strain of its own, by which pictures could be taken";
-                self.add(Finding::at(place, message).help(HELP));
-            }
-        }
+        let at = self.gauges_at(&gauges, place, laid.thickness(axis))?;
+        Some(Some(Gauges { axis, at }))
     }
 
     /// Patches of bonds have rules of 3 and of 6 points.

@@ -44,10 +44,11 @@ impl Check<'_> {
         let held = "`held` is for a solid: a slab is held by its grips";
         self.refuse(case.held.place(), held, "leave it out");
         if let Given::Right(loading, place) = &case.loading
-            && !matches!(loading, Loading::StrainRate(_))
+            && !matches!(loading, Loading::StrainRate(_) | Loading::Pulse(_))
         {
             let message = "this loading is for a solid, and the triangular lattice makes a slab";
-            let help = "write `loading: {strain-rate: {mode: I, rate: 4.6e6 /s}}`, or `lattice: fcc` for a solid";
+            let help =
+                "write `loading: {strain-rate: {mode: I, rate: 4.6e6 /s}}` or a `pulse`, or `lattice: fcc` for a solid";
             self.refuse(Some(*place), message, help);
         }
         for (region, place) in regions(case) {
@@ -57,8 +58,11 @@ impl Check<'_> {
             }
         }
         for item in case.observe.right().into_iter().flatten() {
-            if let Given::Right(Observe::Gauges(_), place) = item {
-                let message = "`gauges` are for a solid: those of a slab stand where its waves are told from";
+            if let Given::Right(Observe::Gauges(_), place) = item
+                && !matches!(case.loading.right(), Some(Loading::Pulse(_)))
+            {
+                let message =
+                    "`gauges` are for a pulse or a solid: those of a pulled slab stand where its waves are told from";
                 self.refuse(Some(*place), message, "leave them out, or write `wave-arrival`");
             }
         }

@@ -47,6 +47,7 @@ pub fn tell(result: &mut CaseResult, solid: &Solid, laid: &Laid) {
             .sum(),
         leftover_share: laid.leftover_share,
         computation: laid.computation,
+        wave_speed: None,
     };
 }
 

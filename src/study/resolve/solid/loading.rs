@@ -1,6 +1,6 @@
 //! What moves and loads a solid.
 
-use super::case::{Loading, Pull, PulseShape};
+use super::case::{Loading, Pull};
 use super::specimen::{Laid, told};
 use crate::study::{
     case::Ramp,
@@ -35,12 +35,7 @@ impl Check<'_> {
                 let face = self.face(&values.face, place, "pulse.face", laid);
                 let pull = self.pull(&values.stress, &values.pressure, place, "pulse");
                 let duration = self.size(&values.duration, place, "pulse.duration");
-                let shape = match &values.shape {
-                    Given::Absent => Some(defaults::PULSE),
-                    Given::Wrong(_) => None,
-                    Given::Right(file::PulseShape::HalfSine, _) => Some(PulseShape::HalfSine),
-                    Given::Right(file::PulseShape::Gaussian, _) => Some(PulseShape::Gaussian),
-                };
+                let shape = self.pulse_shape(&values.shape);
                 (|| {
                     Some(Loading::Pulse {
                         face: face?.0,

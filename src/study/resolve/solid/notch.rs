@@ -65,7 +65,7 @@ impl Check<'_> {
         let from = self.face(&values.from, place, "plane.from", laid);
         let depth = self.size(&values.depth, place, "plane.depth");
         let ((normal, _), at, (from, at_from), (depth, at_depth)) = (normal?, at?, from?, depth?);
-        let at = self.inside(normal, at, laid)?;
+        let at = self.inside(at, laid.thickness(normal))?;
         if from.axis == normal {
             let message = "a plane parallel to this face cannot begin at it";
             self.add(Finding::at(at_from, message).help("begin at a face of another axis"));
