@@ -62,6 +62,8 @@ pub const COMPARED: [Compared; 6] = [
             "first_break_strain",
             "broken_bonds",
             "period_ps",
+            // Of slabs under a pulse.
+            "wave_speed_m_per_s",
         ],
     },
     Compared {

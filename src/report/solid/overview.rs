@@ -157,10 +157,9 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
         row(cases, "wave speed from the first to the last gauge (m/s)", |case| {
             Some(significant(case.findings.wave_speed? * METRE_PER_SECOND, 5))
         }),
-        row(cases, "the same, over that of long waves", |case| {
-            Some(signed_percent(
-                case.findings.wave_speed? / case.solid.specimen.wave_speed? - 1.0,
-            ))
+        row(cases, "the same, against that of long waves (%)", |case| {
+            let share = case.findings.wave_speed? / case.solid.specimen.wave_speed?;
+            Some(significant(PERCENT * (share - 1.0), 2))
         }),
         row(cases, "ended because", |case| case.result.manifest.end_reason.clone()),
     ]

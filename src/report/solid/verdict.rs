@@ -2,7 +2,7 @@
 
 use super::overview::curve_distance;
 use super::{Analysed, reference};
-use crate::report::numbers::{capital, signed_percent, significant};
+use crate::report::numbers::{capital, significant};
 use crate::report::units::{GIGAPASCAL, METRE_PER_SECOND, PERCENT};
 use crate::units::amounts::{bytes, duration};
 
@@ -48,9 +48,9 @@ fn answer(case: &Analysed) -> Option<String> {
     }
     if let Some((speed, expected)) = found.wave_speed.zip(case.solid.specimen.wave_speed) {
         parts.push(format!(
-            "the pulse goes from the first to the last gauge at {} m/s, {} against long waves in the crystal",
+            "the pulse goes from the first to the last gauge at {} m/s, {} % against long waves in the crystal",
             significant(speed * METRE_PER_SECOND, 4),
-            signed_percent(speed / expected - 1.0)
+            significant(PERCENT * (speed / expected - 1.0), 2)
         ));
     }
     if let Some(start) = found.first_break {

@@ -42,7 +42,7 @@ fn a_slab_under_a_pulse_goes_on_from_a_checkpoint_with_the_same_bits_and_the_sam
 
 #[test]
 fn gauges_stand_where_the_study_wants_them() {
-    assert_eq!(made("coarse").gauge_places(), [[30.0, 0.0], [70.0, 0.0]]);
+    assert_eq!(made("coarse").gauge_places(), [[40.0, 0.0], [90.0, 0.0]]);
 }
 
 #[test]
