@@ -20,16 +20,17 @@ mod performance {
     pub mod ranks;
     pub mod roofline;
     pub mod share;
+    pub mod solids;
     pub mod specimens;
     pub mod steps;
 }
 
-use performance::{clock, commands, demand, growth, model_a, page, peer, ranks, roofline, share, steps};
+use performance::{clock, commands, demand, growth, model_a, page, peer, ranks, roofline, share, solids, steps};
 
 /// A part, and how it is measured.
 type Part = (&'static str, fn());
 
-const PARTS: [Part; 10] = [
+const PARTS: [Part; 11] = [
     ("steps", steps::measure),
     ("ranks", ranks::measure),
     ("peer", peer::measure),
@@ -39,6 +40,7 @@ const PARTS: [Part; 10] = [
     ("model-a", model_a::measure),
     ("memory", model_a::measure_memory_of_atoms),
     ("share", share::measure),
+    ("solids", solids::measure),
     ("roofline", roofline::measure),
 ];
 

@@ -17,6 +17,7 @@ mod tiling;
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::slice;
 
 use crate::lattice::triangular;
 use cut::{Crack, Cut};
@@ -148,7 +149,7 @@ impl Mesh {
 
     /// Reference positions of the nodes, x and y, nm.
     pub fn node_positions(&self) -> [Vec<f64>; 2] {
-        self.node_positions_of(&[0..self.elements.len()])
+        self.node_positions_of(slice::from_ref(&(0..self.elements.len())))
     }
 
     /// The same of the nodes of some ranges of elements; the others are untouched zeros, which take no memory.
@@ -179,7 +180,7 @@ impl Mesh {
 
     /// Lumped mass of every node in site masses.
     pub fn lumped_masses(&self) -> Vec<f64> {
-        grouped::masses_of(self, &[0..self.elements.len()])
+        grouped::masses_of(self, slice::from_ref(&(0..self.elements.len())))
     }
 
     /// The element that carries a site; `None` where there is none.

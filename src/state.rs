@@ -7,6 +7,7 @@ mod strip;
 
 use std::array;
 use std::ops::Range;
+use std::slice;
 
 use crate::lanes;
 use crate::mesh::Mesh;
@@ -164,7 +165,7 @@ impl State {
     /// The nodes of a mesh at rest in the perfect lattice, with the masses of their sites (eV ps^2/nm^2 each), of which those of
     /// triangles have a share of the consistent mass matrix.
     pub fn of_mesh(mesh: &Mesh, site_mass: f64, consistent: f64) -> Self {
-        Self::of_elements(mesh, &[0..mesh.elements.len()], site_mass, consistent)
+        Self::of_elements(mesh, slice::from_ref(&(0..mesh.elements.len())), site_mass, consistent)
     }
 
     /// The same of some ranges of elements, which start and end with groups or are atoms.

@@ -17,7 +17,7 @@ pub enum Demand {
 }
 
 /// All rows in the order of the table. A part fills in its own and leaves the others.
-const ROWS: [&str; 15] = [
+const ROWS: [&str; 20] = [
     STEP_EXACT,
     STEP_GAUSS,
     MODEL_A,
@@ -29,6 +29,11 @@ const ROWS: [&str; 15] = [
     MEMORY_ATOM,
     MEMORY_REPRESENTED,
     OUTPUT,
+    SOLID_STEP,
+    SOLID_PEER,
+    BAR_STEP,
+    BAR_SET_UP,
+    BAR_MEMORY,
     CHECK,
     PLAN,
     REPORT,
@@ -45,6 +50,11 @@ pub const SET_UP_GROWTH: &str = "set-up an element, 7 million atoms over 1 milli
 pub const MEMORY_ATOM: &str = "memory an atom";
 pub const MEMORY_REPRESENTED: &str = "memory a represented atom, n = 10";
 pub const OUTPUT: &str = "output every ps and 20 snapshots, share of the time";
+pub const SOLID_STEP: &str = "film of 1,600 blocks of ten cells";
+pub const SOLID_PEER: &str = "atoms of a solid, cutoff 2.5 sigma, over LAMMPS lj/cut/opt";
+pub const BAR_STEP: &str = "5,120 blocks: a step";
+pub const BAR_SET_UP: &str = "5,120 blocks: set-up with all neighbour lists";
+pub const BAR_MEMORY: &str = "5,120 blocks: memory";
 pub const CHECK: &str = "check of 1,000 cases";
 pub const PLAN: &str = "plan of 1,000 cases";
 pub const REPORT: &str = "report of five models like A";

@@ -111,7 +111,7 @@ impl Interfaces {
         };
         let near = near_rows(mesh, &triangles, reach);
         found.collect(mesh, &told, triangles, &near, |row, pairs| {
-            survey.pairs_of(mesh, row, pairs)
+            survey.pairs_of(mesh, row, pairs);
         });
         drop(survey);
         found.index(mesh.triangles, &near);

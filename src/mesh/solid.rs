@@ -17,6 +17,7 @@ mod tiling;
 
 use std::collections::HashMap;
 use std::ops::Range;
+use std::slice;
 
 use super::grouped::{self, Grouped, MassCoupling};
 use element::{Element, Shape};
@@ -185,7 +186,7 @@ impl Solid {
 
     /// Reference positions of the nodes, x, y and z, nm.
     pub fn node_positions(&self) -> [Vec<f64>; 3] {
-        self.node_positions_of(&[0..self.elements.len()])
+        self.node_positions_of(slice::from_ref(&(0..self.elements.len())))
     }
 
     /// The same of the nodes of some ranges of elements; the others are untouched zeros, which take no memory.
@@ -220,7 +221,7 @@ impl Solid {
 
     /// Lumped mass of every node in site masses.
     pub fn lumped_masses(&self) -> Vec<f64> {
-        grouped::masses_of(self, &[0..self.elements.len()])
+        grouped::masses_of(self, slice::from_ref(&(0..self.elements.len())))
     }
 
     pub fn site_count(&self) -> u64 {

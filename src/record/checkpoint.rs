@@ -30,7 +30,7 @@ pub fn write<K: Keep, const D: usize>(
     let planes = [&checkpoint.position, &checkpoint.velocity];
     let nodes = checkpoint.position[0].len();
     write_with(path, case_id, checkpoint, nodes, |number, give| {
-        give(&planes[number / D][number % D])
+        give(&planes[number / D][number % D]);
     })
 }
 
@@ -57,7 +57,7 @@ pub fn read<K: Keep, const D: usize>(path: &Path, case_id: &str) -> Result<Check
 fn seal(case_id: &str) -> Seal<'_> {
     Seal {
         kind: "checkpoint",
-        format: 9,
+        format: 10,
         case_id,
     }
 }
@@ -103,7 +103,7 @@ fn put_checkpoint<K: Keep, const D: usize>(
     for (first, name, unit) in [(0, "position", "nm"), (D, "velocity", "nm/ps")] {
         for (axis, letter) in AXES[..D].iter().enumerate() {
             put_blocks(group, &format!("{name}_{letter}"), unit, &[nodes], |give| {
-                plane(first + axis, give)
+                plane(first + axis, give);
             })?;
         }
     }
