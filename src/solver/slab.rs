@@ -1,4 +1,4 @@
-//! A slab with a crack: triangles and atoms in two dimensions, pulled by grips.
+//! A slab: triangles and atoms in two dimensions, pulled by grips or pushed at a face.
 
 mod ahead;
 mod bins;

@@ -5,7 +5,7 @@ use crate::report::numbers::significant;
 use crate::report::units::PERCENT;
 
 /// Notes that say something of a slab under a pulse, too.
-const OF_PULSES: [&str; 3] = ["Bonds lost", "Distance of curves", "Energy missing"];
+const OF_PULSES: [&str; 2] = ["Distance of curves", "Energy missing"];
 
 pub fn notes(cases: &[Analysed]) -> Vec<(&'static str, String)> {
     let is_pulse = |case: &Analysed| case.solid.specimen.wave_speed.is_some();
@@ -28,6 +28,10 @@ fn of_pulses() -> Vec<(&'static str, String)> {
              a line across the slab, in each row of atoms between the two that are next to it; its velocity is the mean on the line, \
              its stress that of the elements whose atoms these are."
                 .to_owned(),
+        ),
+        (
+            "Bonds lost in a slab",
+            "Bonds of nearest neighbours that are broken, less those that have closed again.".to_owned(),
         ),
         (
             "Arrival",

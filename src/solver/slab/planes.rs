@@ -48,7 +48,7 @@ impl Planes {
             .flat_map(|line| line.elements.iter().map(|&(element, _)| element))
     }
 
-    /// Mean velocity x, y (nm/ps) and virial stress xx, yy, xy (eV/nm^3) of every line.
+    /// Mean velocity x, y (nm/ps) and virial stress xx, yy, xy (eV/nm^3) of every line; not numbers where no row reaches it.
     pub fn read(&self, state: &State, measure: &Measure, setting: &Setting) -> Vec<[f64; 5]> {
         let volume = site_volume(setting);
         let read = |line: &Line| {
