@@ -17,7 +17,6 @@ mod tiling;
 
 use std::collections::HashMap;
 use std::ops::Range;
-use std::slice;
 
 use crate::lattice::triangular;
 use cut::{Crack, Cut};
@@ -56,8 +55,7 @@ impl Plan {
 #[derive(Clone, Debug)]
 pub struct Mesh {
     pub sites: SiteSet,
-    /// Triangles by falling size and from bottom to top, in every row the upright ones before the inverted ones; then the
-    /// atoms.
+    /// Triangles by falling size and from bottom to top, in every row upright ones before inverted ones; then the atoms.
     pub elements: Vec<Element>,
     /// Number of triangles among the elements.
     pub triangles: usize,
@@ -149,7 +147,7 @@ impl Mesh {
 
     /// Reference positions of the nodes, x and y, nm.
     pub fn node_positions(&self) -> [Vec<f64>; 2] {
-        self.node_positions_of(slice::from_ref(&(0..self.elements.len())))
+        self.node_positions_of(std::slice::from_ref(&(0..self.elements.len())))
     }
 
     /// The same of the nodes of some ranges of elements; the others are untouched zeros, which take no memory.
@@ -167,8 +165,8 @@ impl Mesh {
     pub fn node_position(&self, node: usize) -> [f64; 2] {
         let element = self.element_of_node(node);
         let mut corners = self.nodes_of(element).zip(self.elements[element].corners());
-        let corner = corners.find(|(other, _)| *other == node).map(|(_, corner)| corner);
-        corner.map_or([f64::NAN; 2], |corner| self.reference(corner))
+        let own = corners.find(|(other, _)| *other == node);
+        own.map_or([f64::NAN; 2], |(_, corner)| self.reference(corner))
     }
 
     /// Largest coordinate of a node in its reference position, nm.
@@ -180,7 +178,7 @@ impl Mesh {
 
     /// Lumped mass of every node in site masses.
     pub fn lumped_masses(&self) -> Vec<f64> {
-        grouped::masses_of(self, slice::from_ref(&(0..self.elements.len())))
+        grouped::masses_of(self, std::slice::from_ref(&(0..self.elements.len())))
     }
 
     /// The element that carries a site; `None` where there is none.

@@ -207,8 +207,10 @@ impl Solid {
         let number = self.element_of_node(node);
         let element = &self.elements[number];
         let mut corners = self.nodes_of(number).zip(element.corners());
-        let corner = corners.find(|(other, _)| *other == node).map(|(_, corner)| corner);
-        corner.map_or([f64::NAN; 3], |corner| self.sites.frame.place(element.site(corner)))
+        let own = corners.find(|(other, _)| *other == node);
+        own.map_or([f64::NAN; 3], |(_, corner)| {
+            self.sites.frame.place(element.site(corner))
+        })
     }
 
     /// Largest coordinate of a node in its reference position, nm.

@@ -28,23 +28,27 @@ pub fn write<K: Keep, const D: usize>(
     checkpoint: &Checkpoint<K, D>,
 ) -> Result<(), RecordError> {
     let planes = [&checkpoint.position, &checkpoint.velocity];
-    let nodes = checkpoint.position[0].len();
-    write_with(path, case_id, checkpoint, nodes, |number, give| {
-        give(&planes[number / D][number % D]);
-    })
+    let plane = |number: usize| planes[number / D][number % D].as_slice();
+    write_with(
+        path,
+        case_id,
+        checkpoint,
+        |number| plane(number).len(),
+        |number, give| give(plane(number)),
+    )
 }
 
-/// The same with planes of so many nodes, those of the positions first, then those of the velocities. Each is asked for by its number
+/// The same with planes of such lengths, those of the positions first, then those of the velocities. Each is asked for by its number
 /// when the one before has been written, and given block by block.
 pub fn write_with<K: Keep, const D: usize>(
     path: &Path,
     case_id: &str,
     checkpoint: &Checkpoint<K, D>,
-    nodes: usize,
+    length: impl Fn(usize) -> usize,
     plane: impl FnMut(usize, Give<'_, f64>),
 ) -> Result<(), RecordError> {
     sealed::write(path, seal(case_id), |group| {
-        put_checkpoint(group, checkpoint, nodes, plane)
+        put_checkpoint(group, checkpoint, length, plane)
     })
 }
 
@@ -75,7 +79,7 @@ const AXES: [&str; 3] = ["x", "y", "z"];
 fn put_checkpoint<K: Keep, const D: usize>(
     group: &Group,
     checkpoint: &Checkpoint<K, D>,
-    nodes: usize,
+    length: impl Fn(usize) -> usize,
     mut plane: impl FnMut(usize, Give<'_, f64>),
 ) -> hdf5::Result<()> {
     // Taken apart by name, so that a new member cannot be forgotten here.
@@ -102,9 +106,15 @@ fn put_checkpoint<K: Keep, const D: usize>(
     } = checkpoint;
     for (first, name, unit) in [(0, "position", "nm"), (D, "velocity", "nm/ps")] {
         for (axis, letter) in AXES[..D].iter().enumerate() {
-            put_blocks(group, &format!("{name}_{letter}"), unit, &[nodes], |give| {
-                plane(first + axis, give);
-            })?;
+            put_blocks(
+                group,
+                &format!("{name}_{letter}"),
+                unit,
+                &[length(first + axis)],
+                |give| {
+                    plane(first + axis, give);
+                },
+            )?;
         }
     }
     let interfaces = [open_interfaces.len()];

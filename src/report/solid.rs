@@ -47,6 +47,12 @@ impl Analysed<'_> {
             .any(|surface| surface.crack() + surface.slip() + surface.areas.elsewhere > 0.0)
     }
 
+    /// Energy that is missing over the work; `None` of what stands still, on which nothing works.
+    fn energy_error(&self) -> Option<f64> {
+        let moves = self.findings.modulus_at_rest.is_none();
+        self.result.manifest.energy_error.filter(|_| moves)
+    }
+
     /// Its name as part of the name of a file.
     fn file_part(&self) -> String {
         let plain = |letter: char| letter.is_ascii_alphanumeric() || matches!(letter, '-' | '_' | '.');
@@ -67,13 +73,31 @@ pub fn is_of_a_report(name: &str) -> bool {
     figures::is_of_a_report(name) || picture::is_of_a_report(name)
 }
 
-/// The case with the most nodes that has come to its end: what the others are measured against.
-fn reference<'a>(cases: &'a [Analysed<'a>]) -> Option<&'a Analysed<'a>> {
-    let done = cases
-        .iter()
-        .filter(|case| case.series().is_some() && case.result.failure.is_none());
+/// What a case is measured against: that with the most nodes of all that load the same solid in the same way and have come to their
+/// end; `None` where there is no other such case.
+fn reference<'a>(cases: &'a [Analysed<'a>], of: &Analysed) -> Option<&'a Analysed<'a>> {
+    let alike = cases.iter().filter(|case| experiment(case).eq(experiment(of)));
+    let done = alike.filter(|case| case.series().is_some() && case.result.failure.is_none());
+    let others = done.clone().any(|case| case.name() != of.name());
     // The first of equals.
-    done.rev().max_by_key(|case| case.solid.specimen.nodes)
+    done.rev()
+        .max_by_key(|case| case.solid.specimen.nodes)
+        .filter(|_| others)
+}
+
+/// What of a case says which experiment it is, and not how it is computed.
+fn experiment<'a>(case: &'a Analysed) -> impl Iterator<Item = &'a (String, String)> {
+    const SECTIONS: [&str; 7] = [
+        "material.",
+        "specimen.",
+        "notch.",
+        "held.",
+        "loading.",
+        "run.relax.",
+        "run.noise.",
+    ];
+    let says = |(key, _): &&(String, String)| SECTIONS.iter().any(|section| key.starts_with(section));
+    case.result.choices.iter().filter(says)
 }
 
 /// Writes report, tables and figures of a study of solids into its folder.
@@ -125,4 +149,51 @@ pub fn write(study: &Study, folder: &Path) -> Result<(), ReportError> {
     };
     save(&folder.join("report.html"), page.html()?.as_bytes())?;
     save(&folder.join("report.md"), page.markdown()?.as_bytes())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn result(name: &str, choices: &[(&str, &str)], nodes: u64) -> CaseResult {
+        let owned = |(key, value): &(&str, &str)| ((*key).to_owned(), (*value).to_owned());
+        CaseResult {
+            name: name.to_owned(),
+            choices: choices.iter().map(owned).collect(),
+            solid: Some(Solid {
+                specimen: Specimen {
+                    nodes,
+                    ..Specimen::default()
+                },
+                series: Some(Series::default()),
+                ..Solid::default()
+            }),
+            ..CaseResult::default()
+        }
+    }
+
+    #[test]
+    fn a_case_is_measured_against_the_finest_of_its_own_experiment() {
+        let long = ("specimen.blocks", "4; 4; 40");
+        let short = ("specimen.blocks", "2; 2; 20");
+        let [coarse, fine] = ["10", "1"].map(|size| ("resolution.element", size));
+        let rest = ("loading.traction.face", "a3-high");
+        let results = [
+            result("long", &[long, coarse], 20),
+            result("long-atoms", &[long, fine], 900),
+            result("short", &[short, coarse], 5),
+            result("short-atoms", &[short, fine], 100),
+            result("alone", &[short, coarse, rest], 5),
+        ];
+        let analysed = |result| Analysed {
+            result,
+            solid: result.solid.as_ref().expect("it is a solid"),
+            findings: Findings::of(result.solid.as_ref().expect("it is a solid")),
+            surfaces: Vec::new(),
+        };
+        let cases: Vec<Analysed> = results.iter().map(analysed).collect();
+        let found = cases.iter().map(|case| reference(&cases, case).map(Analysed::name));
+        let expected = ["long-atoms", "long-atoms", "short-atoms", "short-atoms"].map(Some);
+        assert_eq!(found.collect::<Vec<_>>(), [&expected[..], &[None]].concat());
+    }
 }

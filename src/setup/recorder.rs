@@ -111,7 +111,7 @@ impl<B: Recorded<D>, const D: usize> Observer<B, D> for Recorder<'_, RowsOf<B, D
         self.flush()?;
         let path = self.folder.join(CHECKPOINT_FILE);
         let plane = |number: usize, give: Give<'_, f64>| motion.plane(number, give);
-        record::checkpoint::write_with(&path, &self.case_id, checkpoint, motion.nodes(), plane)?;
+        record::checkpoint::write_with(&path, &self.case_id, checkpoint, |_| motion.nodes(), plane)?;
         Ok(self.account.save(&spent(cost))?)
     }
 

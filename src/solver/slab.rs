@@ -377,10 +377,7 @@ impl Body<2> for Slab {
     /// From the left edge, and from the crack plane.
     fn reference_place(&self, node: usize) -> Vec<f64> {
         let mesh = self.forces.mesh();
-        let element = mesh.element_of_node(node);
-        let mut corners = mesh.nodes_of(element).zip(mesh.elements[element].corners());
-        let corner = corners.find(|(corner, _)| *corner == node).map(|(_, site)| site);
-        let [x, y] = corner.map_or([f64::NAN; 2], |site| mesh.reference(site));
+        let [x, y] = mesh.node_position(node);
         vec![x - self.setting.left_x, y - mesh.middle_height()]
     }
 

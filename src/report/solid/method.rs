@@ -112,8 +112,8 @@ fn of_solids() -> Vec<(&'static str, String)> {
         ),
         (
             "Distance of curves",
-            "Root of the mean square difference of the average stress from that of the case with the most nodes, at equal \
-             times, over the greatest stress of that case."
+            "Root of the mean square difference of the average stress from that of the case with the most nodes of those that \
+             load the same solid in the same way, at equal times, over the greatest stress of that case."
                 .to_owned(),
         ),
         (

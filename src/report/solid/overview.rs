@@ -28,7 +28,7 @@ pub fn groups(cases: &[Analysed]) -> Vec<Group> {
             rows: results_of(cases),
         },
         Group {
-            title: "How far from the case with the most nodes",
+            title: "How far from the finest of the same experiment",
             rows: distances(cases),
         },
         Group {
@@ -166,13 +166,15 @@ fn results_of(cases: &[Analysed]) -> Vec<Row> {
 }
 
 fn distances(cases: &[Analysed]) -> Vec<Row> {
-    let Some(finest) = reference(cases) else {
-        return Vec::new();
+    let beside = |label: &str, told: &dyn Fn(&Analysed, &Analysed) -> Option<String>| {
+        row(cases, label, |case| match reference(cases, case)? {
+            finest if std::ptr::eq(case, finest) => Some(REFERENCE.to_owned()),
+            finest => told(case, finest),
+        })
     };
     let against = |label: &str, of: &dyn Fn(&Analysed) -> Option<f64>| {
-        row(cases, label, |case| match std::ptr::eq(case, finest) {
-            true => Some(REFERENCE.to_owned()),
-            false => Some(signed_percent(of(case)? / of(finest)? - 1.0)),
+        beside(label, &|case, finest| {
+            Some(signed_percent(of(case)? / of(finest)? - 1.0))
         })
     };
     vec![
@@ -186,25 +188,14 @@ fn distances(cases: &[Analysed]) -> Vec<Row> {
         }),
         against("period", &|case| Some(case.findings.period?.0)),
         against("wave speed", &|case| case.findings.wave_speed),
-        row(
-            cases,
-            "curve of the stress, over its greatest",
-            |case| match std::ptr::eq(case, finest) {
-                true => Some(REFERENCE.to_owned()),
-                false => curve_distance(case, finest).map(|far| format!("{} %", significant(PERCENT * far, 2))),
-            },
-        ),
-        row(
-            cases,
-            "core-seconds of the finest over its own",
-            |case| match std::ptr::eq(case, finest) {
-                true => Some(REFERENCE.to_owned()),
-                false => Some(significant(
-                    finest.result.core_seconds()? / case.result.core_seconds()?,
-                    3,
-                )),
-            },
-        ),
+        beside("curve of the stress, over its greatest", &|case, finest| {
+            let far = curve_distance(case, finest)?;
+            Some(format!("{} %", significant(PERCENT * far, 2)))
+        }),
+        beside("core-seconds of the finest over its own", &|case, finest| {
+            let gain = finest.result.core_seconds()? / case.result.core_seconds()?;
+            Some(significant(gain, 3))
+        }),
     ]
 }
 
@@ -234,7 +225,7 @@ fn energies(cases: &[Analysed]) -> Vec<Row> {
             last(case, |series| &series.release)
         }),
         row(cases, "energy missing, over the work", |case| {
-            case.result.manifest.energy_error.map(|error| significant(error, 2))
+            case.energy_error().map(|error| significant(error, 2))
         }),
     ]
 }

@@ -60,7 +60,7 @@ fn summary(cases: &[Analysed]) -> Vec<Column> {
         rows.number("wall_s", |case| case.result.manifest.wall_seconds),
         rows.number("core_s", |case| case.result.core_seconds()),
         rows.number("atom_steps_per_s", |case| case.atom_steps_a_second()),
-        rows.number("energy_error_relative", |case| case.result.manifest.energy_error),
+        rows.number("energy_error_relative", |case| case.energy_error()),
         rows.number("closest_approach_spacings", |case| {
             case.result.manifest.closest_approach
         }),
@@ -108,13 +108,11 @@ fn specimen(cases: &[Analysed]) -> Vec<Column> {
     ]
 }
 
-/// What each case saves against the finest, and by how much it is off.
+/// What each case saves against the finest of its experiment, and by how much it is off.
 fn speed_against_error(cases: &[Analysed]) -> Vec<Column> {
-    let finest = reference(cases);
-    let others = cases
-        .iter()
-        .filter(|case| finest.is_some_and(|finest| !std::ptr::eq(*case, finest)));
-    let rows = Rows(others.filter_map(|case| Some((case, finest?))).collect::<Vec<_>>());
+    let measured = cases.iter().filter_map(|case| Some((case, reference(cases, case)?)));
+    let others = measured.filter(|(case, finest)| !std::ptr::eq(*case, *finest));
+    let rows = Rows(others.collect::<Vec<_>>());
     let off = |of: fn(&Analysed) -> Option<f64>| {
         move |(case, finest): &(&Analysed, &Analysed)| Some(PERCENT * (of(case)? / of(finest)? - 1.0))
     };

@@ -68,13 +68,11 @@ fn answer(case: &Analysed) -> Option<String> {
 
 /// How far the cheapest is from the finest, and what it saves.
 fn nearness(cases: &[Analysed]) -> Option<String> {
-    let finest = reference(cases)?;
     let cost = |case: &Analysed| case.result.core_seconds();
-    let others = cases
-        .iter()
-        .filter(|case| !std::ptr::eq(*case, finest) && case.series().is_some());
-    let cheapest = others.min_by(|a, b| {
-        let [a, b] = [a, b].map(|case| cost(case).unwrap_or(f64::INFINITY));
+    let measured = cases.iter().filter_map(|case| Some((case, reference(cases, case)?)));
+    let others = measured.filter(|(case, finest)| !std::ptr::eq(*case, *finest) && case.series().is_some());
+    let (cheapest, finest) = others.min_by(|a, b| {
+        let [a, b] = [a, b].map(|(case, _)| cost(case).unwrap_or(f64::INFINITY));
         a.total_cmp(&b)
     })?;
     let far = curve_distance(cheapest, finest)?;

@@ -100,7 +100,7 @@ fn each_wrong_checkpoint_has_its_own_error() {
 
     // A file of the next format, sealed as it should be: only its first line is read.
     let mut bytes = fs::read(&path).unwrap();
-    assert!(bytes.starts_with(b"cgaft checkpoint 9\n"));
+    assert!(bytes.starts_with(b"cgaft checkpoint 10\n"));
     bytes[17] = b'0';
     fs::write(&path, &bytes).unwrap();
     let error = read(&path, "abc").unwrap_err();

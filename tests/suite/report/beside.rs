@@ -78,7 +78,7 @@ fn values_from_elsewhere_stand_beside_those_of_the_cases() {
 
 /// What the table of solids has beside that of slabs.
 const SUMMARY_OF_SOLIDS: &str = "core_s,modulus_gpa,peak_stress_gpa,peak_time_ps,peak_strain,first_break_time_ps,\
-                                 first_break_strain,broken_bonds,period_ps";
+                                 first_break_strain,broken_bonds,period_ps,wave_speed_m_per_s";
 
 #[test]
 fn what_can_be_compared_is_in_the_tables() {
