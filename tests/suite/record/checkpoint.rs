@@ -101,11 +101,11 @@ fn each_wrong_checkpoint_has_its_own_error() {
     // A file of the next format, sealed as it should be: only its first line is read.
     let mut bytes = fs::read(&path).unwrap();
     assert!(bytes.starts_with(b"cgaft checkpoint 10\n"));
-    bytes[17] = b'0';
+    bytes[18] = b'1';
     fs::write(&path, &bytes).unwrap();
     let error = read(&path, "abc").unwrap_err();
     assert!(
-        matches!(&error, RecordError::OtherFormat { found, readable: 9, .. } if found == "0"),
+        matches!(&error, RecordError::OtherFormat { found, readable: 10, .. } if found == "11"),
         "{error}"
     );
 
